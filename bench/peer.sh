@@ -1,0 +1,97 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Our stages against Embree on the same frames: a table over the scenes of a folder, as Markdown.
+set -euo pipefail
+export LC_ALL=C
+
+usage() {
+  cat <<'TEXT'
+usage: IZB_SCENES=FOLDER bench/peer.sh [NAME...]
+
+Renders each scene of the folder (or those named, without .glb or .gltf) at 1920x1080 from the viewpoint of its name in
+bench/views.json and prints the times of bounds, build, zcull and visibility, Embree's fastest rebuild plus one ray a
+receiver, and the ratio; at the end the median over the scenes between 100,000 and 1,000,000 triangles.
+
+  REPEAT=N  frames a scene (default 5)
+  OUT=DIR   where the JSON of each scene stays (default out/peer)
+TEXT
+}
+
+if [ "${1:-}" = --help ] || [ "${1:-}" = -h ]; then
+  usage
+  exit 0
+fi
+if [ ! -d "${IZB_SCENES:-}" ]; then
+  usage >&2
+  exit 2
+fi
+
+folder=$(cd "$IZB_SCENES" && pwd)
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+out=${OUT:-out/peer}
+mkdir -p "$out"
+./run build
+scenes=()
+if [ $# -gt 0 ]; then
+  for name in "$@"; do
+    found=false
+    for file in "$folder/$name".glb "$folder/$name".gltf; do
+      if [ -f "$file" ]; then
+        scenes+=("$file")
+        found=true
+      fi
+    done
+    if ! $found; then
+      echo "peer.sh: no $name.glb or $name.gltf in $folder" >&2
+      exit 1
+    fi
+  done
+else
+  for file in "$folder"/*.glb "$folder"/*.gltf; do
+    if [ -f "$file" ]; then
+      scenes+=("$file")
+    fi
+  done
+fi
+
+# row JSON NAME: one line of the table; the ratio of a scene of 100 k to 1 M triangles is also added to $ratios.
+row() {
+  awk -v scene="$2" -v ratios="$ratios" '
+    function number(line) { sub(/^[^:]*: */, "", line); sub(/,$/, "", line); return line + 0 }
+    /"gpu_ms":/ { ms = number($0) }
+    /"name": "(bounds|build|zcull|visibility)"/ { split($0, part, "\""); stage[part[4]] = ms; sum += ms }
+    /"triangles":/ { triangles = number($0) }
+    /"fastest_rebuild_plus_trace_ms":/ { peer = number($0) }
+    END {
+      if (peer <= 0) exit 1
+      printf "| %s | %d | %.1f | %.1f | %.1f | %.1f | %.1f | %.1f | %.2f |\n", scene, triangles, stage["bounds"],
+             stage["build"], stage["zcull"], stage["visibility"], sum, peer, sum / peer
+      if (triangles >= 100000 && triangles <= 1000000) print sum / peer >> ratios
+    }' "$1"
+}
+
+ratios=$(mktemp)
+trap 'rm -f "$ratios"' EXIT
+status=0
+echo "| scene | triangles | bounds | build | zcull | visibility | sum | Embree | ratio |"
+echo "|---|---|---|---|---|---|---|---|---|"
+for file in "${scenes[@]}"; do
+  name=$(basename "${file%.*}")
+  json=$out/$name.json
+  if build/release/izb render "$file" --viewpoint "$name" --size 1920x1080 --repeat "${REPEAT:-5}" --peer on \
+    --json "$json" >"$out/$name.log"; then
+    row "$json" "$name"
+  else
+    echo "peer.sh: $name failed" >&2
+    status=1
+  fi
+done
+sort -g "$ratios" | awk '
+  { ratio[NR] = $1 }
+  END {
+    if (NR == 0) exit
+    half = int((NR + 1) / 2)
+    median = NR % 2 ? ratio[half] : (ratio[half] + ratio[half + 1]) / 2
+    printf "| median of %d scenes | | | | | | | | %.2f |\n", NR, median
+  }'
+exit $status

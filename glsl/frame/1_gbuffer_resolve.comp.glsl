@@ -1,0 +1,28 @@
+#version 450 core
+// 5.1 The receiver point of each pixel: its ray against the plane of the triangle that it sees.
+#include "shared/bindings.h"
+#include "shared/gbuffer.h"
+#include "shared/geometry.glsl"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+
+layout(std140, binding = BIND_CAMERA) uniform CameraBlock { CameraFrame camera; };
+layout(binding = UNIT_ID) uniform usampler2D id_texture;
+layout(binding = IMAGE_EYE_DISTANCE, r32f) writeonly uniform image2D eye_distance_image;
+layout(binding = IMAGE_NORMAL, rg32f) writeonly uniform image2D normal_image;
+
+void main() {
+  ivec2 px = ivec2(gl_GlobalInvocationID.xy);
+  if (px.x >= int(camera.size_px.x) || px.y >= int(camera.size_px.y)) return;
+  uvec2 id = texelFetch(id_texture, px, 0).xy;
+  float eye_distance = 0.0;
+  vec2 normal = vec2(0.0);
+  if (id.x != 0u) {
+    vec3 corners[3] = triangle_vs(id.x - 1u, id.y);
+    ReceiverPlane r = intersect_plane(camera, vec2(px) + 0.5, corners[0], corners[1], corners[2]);
+    eye_distance = r.eye_distance;
+    normal = r.on_plane ? octahedral_encode(r.normal_vs) : octahedral_none();
+  }
+  imageStore(eye_distance_image, px, vec4(eye_distance));
+  imageStore(normal_image, px, vec4(normal, 0.0, 0.0));
+}

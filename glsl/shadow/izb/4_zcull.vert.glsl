@@ -1,0 +1,4 @@
+#version 450 core
+// 5.4 Light-space culling prepass: one triangle over the whole grid.
+
+void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }

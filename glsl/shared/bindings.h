@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Where each resource is bound, once for GLSL and C++.
+#ifndef IZB_SHARED_BINDINGS_H
+#define IZB_SHARED_BINDINGS_H
+
+// Uniform blocks.
+#define BIND_CAMERA 0
+#define BIND_LIGHT 1
+#define BIND_SHADE 2
+
+// Storage blocks.
+#define BIND_INSTANCES 0
+#define BIND_POSITIONS 1
+#define BIND_INDICES 2
+#define BIND_MATERIALS 3
+#define BIND_BOUNDS 4
+#define BIND_WINDOW 5
+#define BIND_COUNTERS 6
+#define BIND_PAIRS 7
+
+// Texture units.
+#define UNIT_BASE_COLOR 0
+#define UNIT_ID 1
+#define UNIT_EYE_DISTANCE 2
+#define UNIT_NORMAL 3
+#define UNIT_SHADING_NORMAL 4
+#define UNIT_ALBEDO 5
+#define UNIT_HEADS 6
+#define UNIT_NODES 7
+#define UNIT_FURTHEST 8
+#define UNIT_MASK 9
+#define UNIT_PYRAMID 10
+
+// Image units.
+#define IMAGE_EYE_DISTANCE 0
+#define IMAGE_NORMAL 1
+#define IMAGE_HEADS 2
+#define IMAGE_NODES 3
+#define IMAGE_FURTHEST 4
+#define IMAGE_MASK 5
+#define IMAGE_PICTURE 6
+#define IMAGE_PYRAMID 7
+
+// Vertex attributes.
+#define ATTRIBUTE_POSITION 0
+#define ATTRIBUTE_NORMAL 1
+#define ATTRIBUTE_UV 2
+#define ATTRIBUTE_INSTANCE 3
+
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// From the receivers' extremes in light space to the window of the light-space grid (5.2).
+#ifndef IZB_SHARED_BOUNDS_H
+#define IZB_SHARED_BOUNDS_H
+#include "shared/light.h"
+SHARED_BEGIN
+
+// Floats as unsigned integers of the same order, since atomics know only integers.
+struct ReceiverBounds {
+  uvec4 low;    // u, v, d; cleared to ~0
+  uvec4 high;   // u, v, d; cleared to 0
+  uvec4 slack;  // largest uv_error, largest d_error, number of receivers; cleared to 0
+};
+
+SHARED uint ordered_from_float(float f) {
+  uint bits = floatBitsToUint(f);
+  return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
+}
+
+SHARED float float_from_ordered(uint ordered) {
+  return uintBitsToFloat((ordered & 0x80000000u) != 0u ? ordered & 0x7fffffffu : ~ordered);
+}
+
+// The receivers fill all but one texel at each border; a window without extent gets one from the values' own rounding.
+SHARED LightWindow make_window(IN(LightFrame) light, IN(ReceiverBounds) b) {
+  LightWindow w;
+  w.window = vec4(0.0f, 0.0f, 1.0f, 1.0f);
+  w.depth = vec4(0.0f);
+  w.guard = vec4(0.0f);
+  if (b.slack.z == 0u) return w;
+  vec3 low = vec3(float_from_ordered(b.low.x), float_from_ordered(b.low.y), float_from_ordered(b.low.z));
+  vec3 high = vec3(float_from_ordered(b.high.x), float_from_ordered(b.high.y), float_from_ordered(b.high.z));
+  float uv_slack = float_from_ordered(b.slack.x);
+  float d_slack = float_from_ordered(b.slack.y);
+  float side = float(light.grid.x);
+  vec3 tiny = 0.000001f * max(abs(low), abs(high)) + vec3(1.0e-30f);
+  vec3 extent = max(high - low, tiny);
+  vec2 scale = vec2((side - 2.0f) / extent.x, (side - 2.0f) / extent.y);
+  w.window = vec4(low.x - 1.0f / scale.x, low.y - 1.0f / scale.y, scale.x, scale.y);
+  float depth_scale = 0.5f / extent.z;
+  float depth_offset = 0.25f - low.z * depth_scale;
+  float depth_guard = d_slack * depth_scale + 8.0f * unit_roundoff * (1.0f + abs(depth_offset));
+  w.depth = vec4(depth_offset, depth_scale, depth_guard, 0.0f);
+  w.guard = vec4(uv_slack * max(scale.x, scale.y) + 8.0f * unit_roundoff * side, 1.0f, 0.0f, 0.0f);
+  return w;
+}
+
+// The texel of a grid position.
+SHARED ivec2 grid_texel(IN(LightFrame) light, IN(vec3) grid) {
+  int last = int(light.grid.x) - 1;
+  return ivec2(clamp(int(floor(grid.x)), 0, last), clamp(int(floor(grid.y)), 0, last));
+}
+
+SHARED_END
+#endif

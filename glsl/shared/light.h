@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// The light of the frame, its window over the visible pixels (5.2), and the mapping of points to the light-space grid.
+#ifndef IZB_SHARED_LIGHT_H
+#define IZB_SHARED_LIGHT_H
+#include "shared/camera.h"
+SHARED_BEGIN
+
+// What the CPU knows of the light. Light space: x, y across, z along the light's way (depth grows away from the light).
+struct LightFrame {
+  vec4 axis_x;    // rows of light_from_view, unit length
+  vec4 axis_y;
+  vec4 axis_z;
+  vec4 origin;    // xyz: position of a spot light, 0 for a directional one; w: 1 positional, 0 directional
+  vec4 to_light;  // directional: unit vector towards the light; w: cosine of the spot's half-angle
+  vec4 color;     // linear; w: 1 if pixels with N.L <= 0 stay out of the IZB (6.5)
+  uvec4 grid;     // x: texels along one side of the light-space grid
+};
+
+// What the bounds stage finds: the tight window over the receivers, one a cascade.
+struct LightWindow {
+  vec4 window;  // grid position = (uv - xy) * zw
+  vec4 depth;   // depth = x + y * d, in [1/4, 3/4] over the receivers; z: guard for its rounding error
+  vec4 guard;   // x: texels by which a receiver's grid position may be wrong; y: 1 if there is any receiver, else 0
+};
+
+const float unit_roundoff = 5.9604644775390625e-8f;  // u = 2^-24
+
+SHARED float norm1(IN(vec3) v) {
+  PRECISE float sum = (abs(v.x) + abs(v.y)) + abs(v.z);
+  return sum;
+}
+
+SHARED bool is_positional(IN(LightFrame) light) { return light.origin.w != 0.0f; }
+
+// Light-space position relative to the light's origin.
+SHARED vec3 light_position(IN(LightFrame) light, IN(vec3) p_vs) {
+  vec3 p = p_vs - vec3(light.origin);
+  return vec3(dot(vec3(light.axis_x), p), dot(vec3(light.axis_y), p), dot(vec3(light.axis_z), p));
+}
+
+// (u, v, d): where a light-space point falls. d is affine over the grid and monotone in depth: the depth itself
+// (directional) or -1/depth (spot; z > 0 only).
+SHARED vec3 light_uvd(IN(LightFrame) light, IN(vec3) p_ls) {
+  if (is_positional(light)) return vec3(p_ls.x / p_ls.z, p_ls.y / p_ls.z, -1.0f / p_ls.z);
+  return p_ls;
+}
+
+// Grid position in texels, and depth.
+SHARED vec3 grid_position(IN(LightWindow) w, IN(vec3) uvd) {
+  return vec3((uvd.x - w.window.x) * w.window.z, (uvd.y - w.window.y) * w.window.w, w.depth.x + w.depth.y * uvd.z);
+}
+
+// How far light_uvd's (u, v) may be off, forward error. |p|_1 covers the rotation's three products and two sums
+// (3u each, axes <= 1) and the axes' own rounding (u); the subtraction of the origin adds u more; the division doubles
+// it. Constants are rounded up.
+SHARED float uv_error(IN(LightFrame) light, IN(vec3) p_vs, IN(vec3) p_ls) {
+  float moved = 8.0f * unit_roundoff * (norm1(p_vs) + norm1(vec3(light.origin)));
+  if (!is_positional(light)) return moved;
+  return 2.0f * moved / p_ls.z * (1.0f + max(abs(p_ls.x), abs(p_ls.y)) / p_ls.z);
+}
+
+// The same for d.
+SHARED float d_error(IN(LightFrame) light, IN(vec3) p_vs, IN(vec3) p_ls) {
+  float moved = 8.0f * unit_roundoff * (norm1(p_vs) + norm1(vec3(light.origin)));
+  if (!is_positional(light)) return moved;
+  return 2.0f * moved / (p_ls.z * p_ls.z);
+}
+
+const uint class_receiver = 0u;  // numbered as reference::PixelClass
+const uint class_sky = 1u;
+const uint class_culled = 2u;
+const uint class_outside_cone = 3u;
+
+// What a visible point is to the shadow test. normal_vs points along the geometric normal on the viewer's side, of any
+// length. Shading uses the same decision, so that a culled point's light term is exactly zero (6.5). Products and sums
+// only, so that C++ and every GPU agree.
+SHARED uint receiver_class(IN(LightFrame) light, IN(vec3) p_vs, IN(vec3) normal_vs) {
+  if (normal_vs == vec3(0.0f)) return class_culled;  // no side, no light
+  PRECISE vec3 to_light = is_positional(light) ? vec3(light.origin) - p_vs : vec3(light.to_light);
+  if (is_positional(light)) {
+    PRECISE float along =
+        -((light.axis_z.x * to_light.x + light.axis_z.y * to_light.y) + light.axis_z.z * to_light.z);
+    PRECISE float length2 = (to_light.x * to_light.x + to_light.y * to_light.y) + to_light.z * to_light.z;
+    PRECISE float along2 = along * along;
+    PRECISE float limit2 = (light.to_light.w * light.to_light.w) * length2;
+    if (!(along > 0.0f) || along2 < limit2) return class_outside_cone;
+  }
+  PRECISE float n_dot_l = (normal_vs.x * to_light.x + normal_vs.y * to_light.y) + normal_vs.z * to_light.z;
+  if (light.color.w != 0.0f && n_dot_l <= 0.0f) return class_culled;
+  return class_receiver;
+}
+
+SHARED_END
+#endif

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "app/frame_options.h"
+
+#include <charconv>
+#include <filesystem>
+#include <glm/gtc/constants.hpp>
+#include <vector>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "gpu/context.h"
+
+namespace izb {
+namespace {
+
+constexpr double default_azimuth_deg = 135.0, default_elevation_deg = 40.0;
+
+std::vector<double> parse_numbers(const std::string& option, const std::string& text, size_t count) {
+  std::vector<double> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (at <= end) {
+    double value = 0.0;
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error != std::errc() || !std::isfinite(value)) break;
+    numbers.push_back(value);
+    if (next == end) {
+      if (numbers.size() == count) return numbers;
+      break;
+    }
+    if (*next != ',') break;
+    at = next + 1;
+  }
+  throw UsageError(fmt::format("--{} must be {} numbers with commas between them, not '{}'", option, count, text));
+}
+
+glm::dvec3 parse_vector(const std::string& option, const std::string& text) {
+  const std::vector<double> n = parse_numbers(option, text, 3);
+  return {n[0], n[1], n[2]};
+}
+
+Light parse_sun(const std::string& text) {
+  const std::vector<double> n = parse_numbers("sun", text, 2);
+  if (n[1] < -90.0 || n[1] > 90.0)
+    throw UsageError(fmt::format("--sun's elevation must be between -90 and 90 degrees, not {}", n[1]));
+  return sun(n[0], n[1]);
+}
+
+Light parse_spot(const std::string& text) {
+  const std::vector<double> n = parse_numbers("spot", text, 7);
+  if (!(n[6] > 0.0 && n[6] <= 60.0))
+    throw UsageError(fmt::format("--spot's half-angle must be above 0 and at most 60 degrees, not {}", n[6]));
+  Light light;
+  light.name = "spot";
+  light.type = LightType::spot;
+  light.position_ws = {n[0], n[1], n[2]};
+  const glm::dvec3 way = glm::dvec3(n[3], n[4], n[5]) - light.position_ws;
+  if (!(glm::length(way) > 0.0)) throw UsageError("--spot's target must differ from its position");
+  light.direction_ws = glm::normalize(way);
+  light.outer_cone_rad = glm::radians(n[6]);
+  light.inner_cone_rad = 0.9 * light.outer_cone_rad;
+  return light;
+}
+
+/// bench/views.json of the source tree or of the installed program, if the path as given is not there.
+std::filesystem::path find_views(const std::string& given) {
+  std::error_code ignored;
+  if (std::filesystem::exists(given, ignored)) return given;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  for (const char* below : {"../../bench/views.json", "../share/izb/views.json"}) {
+    const auto path = program.parent_path() / below;
+    if (given == "bench/views.json" && std::filesystem::exists(path, ignored)) return path;
+  }
+  return given;
+}
+
+Camera choose_camera(const FrameOptions& o, const Scene& scene, const std::optional<Viewpoint>& viewpoint) {
+  if (o.eye.empty() != o.target.empty()) throw UsageError("--eye and --target go together");
+  if (!o.eye.empty() && !o.camera.empty()) throw UsageError("--camera and --eye exclude each other");
+  if (!o.eye.empty()) {
+    const glm::dvec3 eye = parse_vector("eye", o.eye), target = parse_vector("target", o.target);
+    if (eye == target) throw UsageError("--eye and --target must differ");
+    return look_at(eye, target, glm::radians(o.fov_deg));
+  }
+  if (!o.camera.empty()) return find_camera(scene, o.camera);
+  if (viewpoint) return look_at(viewpoint->eye_ws, viewpoint->target_ws, glm::radians(viewpoint->yfov_deg));
+  if (!scene.cameras.empty()) return scene.cameras.front();
+  note("the scene has no camera: one framed on its bounds is used (--eye, --target, --fov choose another)");
+  return default_camera(world_bounds(scene));
+}
+
+Light choose_light(const FrameOptions& o, const Scene& scene, const std::optional<Viewpoint>& viewpoint) {
+  if (int(!o.light.empty()) + int(!o.sun.empty()) + int(!o.spot.empty()) > 1)
+    throw UsageError("--light, --sun and --spot exclude each other");
+  if (!o.sun.empty()) return parse_sun(o.sun);
+  if (!o.spot.empty()) return parse_spot(o.spot);
+  if (!o.light.empty()) return find_light(scene, o.light);
+  if (viewpoint && viewpoint->light) return find_light(scene, *viewpoint->light);
+  if (viewpoint && viewpoint->sun_deg) return sun(viewpoint->sun_deg->x, viewpoint->sun_deg->y);
+  for (const Light& light : scene.lights)
+    if (light.type != LightType::point) return light;
+  note("the scene has no {}light: a sun at azimuth {} and elevation {} degrees is used (--sun chooses another)",
+       scene.lights.empty() ? "" : "directional or spot ", default_azimuth_deg, default_elevation_deg);
+  return sun(default_azimuth_deg, default_elevation_deg);
+}
+
+}  // namespace
+
+OptionSet FrameOptions::options() {
+  OptionSet set;
+  set.text("size", size, "WIDTHxHEIGHT", "size of the picture in pixels");
+  set.text("camera", camera, "NAME|INDEX",
+           "a camera of the scene; without one, its first, or one framed on its bounds");
+  set.text("eye", eye, "X,Y,Z", "camera position in world units, with --target");
+  set.text("target", target, "X,Y,Z", "the point that the camera looks at, in world units");
+  set.number("fov", fov_deg, 0.1, 170.0, "degrees", "vertical field of view, with --eye");
+  set.text("light", light, "NAME|INDEX", "a light of the scene; without one, its first, or a sun");
+  set.text("sun", sun, "AZIMUTH,ELEVATION",
+           "a directional light: degrees clockwise from -z, degrees above the horizon");
+  set.text("spot", spot, "X,Y,Z,TX,TY,TZ,ANGLE",
+           "a spot light: position, target (world units), half-angle (degrees, up to 60)");
+  set.text("viewpoint", viewpoint, "NAME", "a named view of the views file: camera and light");
+  set.text("views", views, "FILE", "the views file");
+  set.choice("technique", technique, technique_names(), "the shadow technique; its own options are listed below");
+  set.choice("context", context, gpu::context_names(), "how to get an OpenGL 4.5 context");
+  return set;
+}
+
+Size parse_size(const std::string& text) {
+  Size size{0, 0};
+  const char* const end = text.data() + text.size();
+  const auto [after_width, error1] = std::from_chars(text.data(), end, size.width_px);
+  if (error1 == std::errc() && after_width != end && *after_width == 'x') {
+    const auto [after_height, error2] = std::from_chars(after_width + 1, end, size.height_px);
+    if (error2 == std::errc() && after_height == end && size.width_px > 0 && size.height_px > 0) return size;
+  }
+  throw UsageError(fmt::format("--size must be WIDTHxHEIGHT in pixels, each at least 1, not '{}'", text));
+}
+
+FrameChoice choose_frame(const FrameOptions& o, const Scene& scene) {
+  std::optional<Viewpoint> viewpoint;
+  if (!o.viewpoint.empty()) viewpoint = read_viewpoint(find_views(o.views), o.viewpoint);
+  return {parse_size(o.size), choose_camera(o, scene, viewpoint), choose_light(o, scene, viewpoint)};
+}
+
+}  // namespace izb

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// What `render` and `validate` have in common on the command line: which frame, by which technique.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "base/options.h"
+#include "scene/scene.h"
+#include "scene/view.h"
+#include "shadow/technique.h"
+
+namespace izb {
+
+/// Values of the shared options, with their defaults.
+struct FrameOptions {
+  std::string size = "1280x720";
+  std::string camera, eye, target;
+  double fov_deg = 45.0;
+  std::string light, sun, spot;
+  std::string viewpoint;
+  std::string views = "bench/views.json";
+  std::string technique = "izb";
+  std::string context = "auto";
+
+  /// Declares them; `technique` and `context` choices come from the registries.
+  OptionSet options();
+};
+
+struct Size {
+  int width_px, height_px;
+};
+
+/// A frame that the person asked for, with what had to be chosen for them said on stderr.
+struct FrameChoice {
+  Size size;
+  Camera camera;
+  Light light;
+};
+
+/// Throws izb::UsageError for text that does not parse or options that exclude each other, izb::Error for names that
+/// the scene does not have.
+FrameChoice choose_frame(const FrameOptions& options, const Scene& scene);
+
+/// WIDTHxHEIGHT. Throws izb::UsageError.
+Size parse_size(const std::string& text);
+
+}  // namespace izb

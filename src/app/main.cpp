@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <new>
+
+#include "app/commands.h"
+#include "base/error.h"
+#include "base/version.h"
+
+namespace {
+
+constexpr int exit_failure = 1, exit_usage = 2;
+
+int run(int argc, char** argv) {
+  CLI::App app{"Irregular z-buffer shadows: alias-free hard shadows by OpenGL 4.5, checked by ray tracing", "izb"};
+  app.set_version_flag("--version", fmt::format("izb {} ({})", izb::version(), izb::commit()));
+  app.require_subcommand(1);
+  const izb::Arguments arguments(argv + 1, argv + argc);
+  const std::pair<const char*, izb::Command> commands[] = {
+      {"render", izb::add_render(app, arguments)},
+      {"validate", izb::add_validate(app, arguments)},
+      {"info", izb::add_info(app)},
+      {"scene", izb::add_scene(app)},
+  };
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : exit_usage;
+  }
+  for (const auto& [name, command] : commands)
+    if (app.got_subcommand(name)) return command();
+  return exit_usage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const izb::UsageError& e) {
+    fmt::print(stderr, "izb: {}\n", e.what());
+    return exit_usage;
+  } catch (const izb::Error& e) {
+    fmt::print(stderr, "izb: {}\n", e.what());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "izb: not enough memory\n");
+  }
+  return exit_failure;
+}

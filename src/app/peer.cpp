@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "app/peer.h"
+
+#include "app/results.h"
+#include "shadow/ray_traced/receivers.h"
+
+namespace izb {
+
+Peer::Peer(const Renderer& renderer)
+    : receivers_(make_receivers(read_gbuffer(*renderer.inputs().gbuffer), renderer.inputs())),
+      light_(make_light_point(renderer.inputs().light)),
+      tracer_({renderer.inputs().triangles_vs()}, reference::BuildQuality::low),
+      samples_{{"low", reference::BuildQuality::low, {}, {}},
+               {"medium", reference::BuildQuality::medium, {}, {}},
+               {"high", reference::BuildQuality::high, {}, {}}} {}
+
+void Peer::run() {
+  for (Samples& s : samples_) {
+    s.rebuild_ms.push_back(tracer_.rebuild(s.quality));
+    const reference::MaskTrace traced = tracer_.trace_mask(light_, receivers_);
+    s.trace_ms.push_back(traced.trace_ms);
+    rays_ = traced.rays;
+  }
+}
+
+nlohmann::json Peer::to_json() const {
+  nlohmann::json json;
+  json["name"] = reference::embree_version();
+  json["rays"] = rays_;
+  double fastest_rebuild = 0.0, its_sum = 0.0;
+  for (const Samples& s : samples_) {
+    const double rebuild = median(s.rebuild_ms), trace = median(s.trace_ms);
+    json[s.name] = {{"rebuild_ms", rebuild}, {"trace_ms", trace}, {"sum_ms", rebuild + trace}};
+    if (its_sum == 0.0 || rebuild < fastest_rebuild) {
+      fastest_rebuild = rebuild;
+      its_sum = rebuild + trace;
+    }
+  }
+  json["fastest_rebuild_plus_trace_ms"] = its_sum;
+  return json;
+}
+
+}  // namespace izb

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// izb render: one frame as OpenEXR, PNG and JSON.
+#include <CLI/CLI.hpp>
+#include <chrono>
+
+#include "app/commands.h"
+#include "app/peer.h"
+#include "app/results.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/log.h"
+#include "base/progress.h"
+#include "base/table.h"
+#include "frame/read_back.h"
+#include "image/exr.h"
+#include "image/png.h"
+
+namespace izb {
+namespace {
+
+struct RenderOptions {
+  FrameOptions frame;
+  std::string scene, output, preview, json;
+  int repeat = 1;
+  bool peer = false;
+  std::unique_ptr<Technique> technique;
+  Arguments arguments;
+
+  OptionSet options() {
+    OptionSet set;
+    set.text("preview", preview, "FILE", "also write the picture as PNG");
+    set.text("json", json, "FILE", "also write times, counts, memory and the mask's hash as JSON");
+    set.integer("repeat", repeat, 1, 10000, "frames", "frames to time; medians are reported");
+    set.flag("peer", peer, "alternate each frame with Embree on the same cores and report its times");
+    return set;
+  }
+};
+
+struct Timed {
+  std::vector<double> frame_ms;
+  nlohmann::json peer;
+};
+
+Timed render_frames(Session& s, const RenderOptions& o) {
+  const FrameChoice& f = s.frame;
+  // One frame unmeasured: the driver compiles on first use.
+  gpu::StageTimers warm_up(s.timers.wall_clock());
+  s.renderer.render(f.camera, f.light, warm_up);
+  glFinish();
+  warm_up.collect();
+  std::unique_ptr<Peer> peer;
+  if (o.peer) peer = std::make_unique<Peer>(s.renderer);
+  Timed timed;
+  Progress progress("rendering", static_cast<uint64_t>(o.repeat));
+  for (int i = 0; i < o.repeat; ++i) {
+    glFinish();
+    const auto start = std::chrono::steady_clock::now();
+    s.renderer.render(f.camera, f.light, s.timers);
+    glFinish();
+    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+    timed.frame_ms.push_back(elapsed.count());
+    s.timers.collect();
+    if (peer) peer->run();
+    progress.advance();
+  }
+  if (peer) timed.peer = peer->to_json();
+  return timed;
+}
+
+void print_table(const nlohmann::json& json) {
+  Table stages({{"stage", Align::left}, {"ms"}});
+  for (const auto& stage : json["stages"])
+    stages.add_row({stage["name"].get<std::string>(), fmt::format("{:.2f}", stage["gpu_ms"].get<double>())});
+  stages.add_row({"frame", fmt::format("{:.2f}", json["frame_ms"].get<double>())});
+  fmt::print("{}\n", stages.str());
+  Table counts({{"count", Align::left}, {"value"}});
+  for (const auto& [name, value] : json["counts"].items()) counts.add_row({name, value.dump()});
+  for (const auto& [name, value] : json["memory_bytes"].items())
+    counts.add_row({"memory " + name, fmt::format("{:.1f} MB", value.get<double>() * 1e-6)});
+  fmt::print("{}", counts.str());
+}
+
+int render(RenderOptions& o) {
+  if (o.output.empty() && o.preview.empty() && o.json.empty())
+    throw UsageError("nothing to write: give -o FILE.exr, --preview FILE.png or --json FILE.json");
+  // Opened first: an output that cannot be written is known before the work.
+  std::vector<std::unique_ptr<AtomicFile>> probes;
+  for (const std::string* path : {&o.output, &o.preview, &o.json})
+    if (!path->empty()) probes.push_back(std::make_unique<AtomicFile>(*path));
+  Session s(o.frame, *o.technique, o.scene);
+  const Timed timed = render_frames(s, o);
+
+  nlohmann::json json = provenance(s, o.frame, *o.technique, o.arguments, o.scene);
+  const std::vector<uint32_t> mask = read_mask(s.renderer.mask());
+  json["mask_hash"] = mask_hash(mask);
+  json["stages"] = stages_json(s.timers);
+  json["frame_ms"] = median(timed.frame_ms);
+  json["memory_bytes"] = counts_json(s.renderer.memory());
+  if (!timed.peer.is_null()) json["peer"] = timed.peer;
+  const Image image = frame_image(s, *o.technique, json);
+  json["counts"] = counts_json(s.renderer.count());
+  const std::vector<float>& depth = image.floats("depth");
+  if (std::none_of(depth.begin(), depth.end(), [](float d) { return d > 0.0f; }))
+    warn("no triangle of '{}' is in view: the picture shows the sky", o.scene);
+
+  probes.clear();
+  if (!o.output.empty()) write_exr(o.output, image);
+  if (!o.preview.empty()) write_png(o.preview, preview(image));
+  if (!o.json.empty()) write_file_atomically(o.json, json.dump(1) + "\n");
+  print_table(json);
+  for (const std::string* path : {&o.output, &o.preview, &o.json})
+    if (!path->empty()) fmt::print("wrote {}\n", *path);
+  return 0;
+}
+
+}  // namespace
+
+Command add_render(CLI::App& app, const Arguments& arguments) {
+  auto o = std::make_shared<RenderOptions>();
+  o->technique = technique_of(arguments);
+  o->arguments = arguments;
+  CLI::App* sub = app.add_subcommand("render", "Render one frame of a glTF scene");
+  sub->add_option("SCENE", o->scene, "a .gltf or .glb file")->required();
+  sub->add_option("-o,--output", o->output, "write the frame as OpenEXR")->type_name("FILE");
+  o->options().add_to(*sub, "Output");
+  o->frame.options().add_to(*sub, "Frame");
+  o->technique->options().add_to(*sub, "Technique " + o->technique->info().name);
+  return [o] { return render(*o); };
+}
+
+}  // namespace izb

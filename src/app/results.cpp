@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "app/results.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "base/log.h"
+#include "base/sha256.h"
+#include "base/version.h"
+#include "frame/read_back.h"
+#include "image/srgb.h"
+
+namespace izb {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the mask's hash is over little-endian words");
+
+std::string command_line(const Arguments& arguments) {
+  std::string text = "izb";
+  for (const std::string& a : arguments) text += " " + (a.find(' ') == std::string::npos ? a : "'" + a + "'");
+  return text;
+}
+
+std::array<float, 16> floats_of(const glm::dmat4& m) {
+  const glm::mat4 f(m);
+  std::array<float, 16> out;
+  std::memcpy(out.data(), &f[0][0], sizeof f);
+  return out;
+}
+
+/// OpenEXR's camera space looks along +z; its NDC runs from the upper left corner (0, 0) to the lower right (1, 1).
+void add_camera(Image& image, const Session& session) {
+  const glm::dmat4 view = glm::inverse(session.frame.camera.world_from_view);
+  const glm::dmat4 clip = glm::dmat4(session.renderer.inputs().camera.clip_from_view);
+  const glm::dmat4 upper_left =
+      glm::translate(glm::dmat4(1.0), {0.5, 0.5, 0.0}) * glm::scale(glm::dmat4(1.0), {0.5, -0.5, 1.0});
+  image.attributes["worldToCamera"] = floats_of(glm::scale(glm::dmat4(1.0), {1.0, 1.0, -1.0}) * view);
+  image.attributes["worldToNDC"] = floats_of(upper_left * clip * view);
+}
+
+void add_light(Image& image, const Light& light) {
+  const auto triple = [](const glm::dvec3& v) { return std::array<float, 3>{float(v.x), float(v.y), float(v.z)}; };
+  const bool spot = light.type == LightType::spot;
+  image.attributes["light.type"] = std::string(spot ? "spot" : "directional");
+  image.attributes["light.direction"] = triple(light.direction_ws);
+  if (spot) {
+    image.attributes["light.position"] = triple(light.position_ws);
+    image.attributes["light.halfAngleDegrees"] = float(glm::degrees(light.outer_cone_rad));
+  }
+}
+
+}  // namespace
+
+nlohmann::json provenance(const Session& session, const FrameOptions& options, Technique& technique,
+                          const Arguments& arguments, const std::string& scene_path) {
+  FrameOptions copy = options;
+  nlohmann::json facts;
+  facts["command"] = command_line(arguments);
+  facts["version"] = fmt::format("{} ({})", version(), commit());
+  facts["gl"] = {{"context", session.gl.context.name},
+                 {"vendor", session.gl.capabilities.vendor},
+                 {"renderer", session.gl.capabilities.renderer},
+                 {"version", session.gl.capabilities.version}};
+  facts["options"] = copy.options().to_json();
+  facts["options"].update(technique.options().to_json());
+  facts["technique"] = technique.info().name;
+  facts["scene"] = {{"file", scene_path}, {"triangles", session.scene.triangle_count()}};
+  facts["timing"] = session.timers.method();
+  return facts;
+}
+
+std::string mask_hash(const std::vector<uint32_t>& mask) {
+  return sha256_hex(std::as_bytes(std::span(mask)));
+}
+
+Image frame_image(const Session& session, const Technique& technique, const nlohmann::json& facts) {
+  const FrameInputs& in = session.renderer.inputs();
+  const GBufferImage gbuffer = read_gbuffer(*in.gbuffer);
+  const std::vector<uint32_t> mask = read_mask(session.renderer.mask());
+  Image image;
+  image.width_px = in.width_px;
+  image.height_px = in.height_px;
+  const size_t count = gbuffer.size();
+
+  std::vector<glm::vec4> picture(count);
+  session.renderer.picture().read_bytes(GL_RGBA, GL_FLOAT, count * sizeof(glm::vec4), picture.data());
+  picture = flip_rows(std::move(picture), in.width_px, in.height_px);
+  const auto plane = [&](const std::string& name, auto&& value) {
+    std::vector<float> values(count);
+    for (size_t i = 0; i < count; ++i) values[i] = value(i);
+    image.add(name, std::move(values));
+  };
+  plane("R", [&](size_t i) { return picture[i].r; });
+  plane("G", [&](size_t i) { return picture[i].g; });
+  plane("B", [&](size_t i) { return picture[i].b; });
+  plane("visibility", [&](size_t i) { return 1.0f - float(std::popcount(mask[i])) / 32.0f; });
+  plane("depth", [&](size_t i) { return gbuffer.eye_distance[i]; });
+  std::vector<glm::vec3> normals(count, glm::vec3(0.0f));
+  const glm::mat3 world_from_view = glm::mat3(session.frame.camera.world_from_view);
+  for (size_t i = 0; i < count; ++i)
+    if (gbuffer.eye_distance[i] > 0.0f) normals[i] = world_from_view * shared::octahedral_decode(gbuffer.normal[i]);
+  plane("normal.X", [&](size_t i) { return normals[i].x; });
+  plane("normal.Y", [&](size_t i) { return normals[i].y; });
+  plane("normal.Z", [&](size_t i) { return normals[i].z; });
+  if (std::vector<float> lengths = technique.list_lengths(); !lengths.empty())
+    image.add("list_length", flip_rows(std::move(lengths), in.width_px, in.height_px));
+  image.add("mask", mask);
+
+  add_camera(image, session);
+  add_light(image, session.frame.light);
+  for (const auto& [key, value] : facts.items())
+    image.attributes["izb." + key] = value.is_string() ? value.get<std::string>() : value.dump();
+  return image;
+}
+
+Image8 preview(const Image& image) {
+  Image8 out;
+  out.width_px = image.width_px;
+  out.height_px = image.height_px;
+  out.pixels.resize(image.pixel_count() * 3);
+  const std::vector<float>* planes[] = {&image.floats("R"), &image.floats("G"), &image.floats("B")};
+  for (size_t i = 0; i < image.pixel_count(); ++i)
+    for (size_t c = 0; c < 3; ++c) out.pixels[3 * i + c] = to_srgb8((*planes[c])[i]);
+  return out;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const size_t half = values.size() / 2;
+  return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+nlohmann::json stages_json(const gpu::StageTimers& timers) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const gpu::StageTimers::Stage& stage : timers.stages())
+    list.push_back({{"name", stage.name}, {"gpu_ms", median(stage.samples_ms)}, {"samples", stage.samples_ms}});
+  return list;
+}
+
+nlohmann::json counts_json(const Counts& counts) {
+  nlohmann::json object = nlohmann::json::object();
+  for (const auto& [name, value] : counts) object[name] = value;
+  return object;
+}
+
+}  // namespace izb

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What a run leaves behind: numbers as JSON, the frame as OpenEXR, a preview as PNG.
+#pragma once
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/session.h"
+#include "image/image.h"
+
+namespace izb {
+
+/// How a result came about: command line, version, GL strings, options, scene. The same keys in every JSON.
+nlohmann::json provenance(const Session& session, const FrameOptions& options, Technique& technique,
+                          const Arguments& arguments, const std::string& scene_path);
+
+/// SHA-256 of the mask's words, little-endian, top row first.
+std::string mask_hash(const std::vector<uint32_t>& mask);
+
+/// The last frame as channels R G B, visibility, depth, normal.X/Y/Z, mask, list_length (where the technique has
+/// lists), with the standard attributes worldToCamera and worldToNDC, the light, and `facts` as text.
+Image frame_image(const Session& session, const Technique& technique, const nlohmann::json& facts);
+
+/// The sRGB preview of an image with channels R, G, B.
+Image8 preview(const Image& image);
+
+double median(std::vector<double> values);
+
+/// `stages` of the JSON: name, gpu_ms (median), samples.
+nlohmann::json stages_json(const gpu::StageTimers& timers);
+
+nlohmann::json counts_json(const Counts& counts);
+
+}  // namespace izb

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// A context, a scene, a technique and a renderer, made from the command line.
+#pragma once
+#include <memory>
+
+#include "app/frame_options.h"
+#include "gpu/context.h"
+#include "shadow/renderer.h"
+
+namespace izb {
+
+/// The technique named on the command line, made before parsing so that its options can be parsed too.
+std::unique_ptr<Technique> technique_of(const std::vector<std::string>& arguments);
+
+/// A GL context and what the driver says of itself. $IZB_GL_DEBUG set: KHR_debug messages are shown, and counted.
+struct Gl {
+  explicit Gl(const std::string& context_name);
+  gpu::ContextResult context;
+  gpu::Capabilities capabilities;
+};
+
+/// Everything for frames of one scene.
+struct Session {
+  Session(const FrameOptions& options, Technique& technique, const std::string& scene_path);
+  Scene scene;
+  FrameChoice frame;
+  Gl gl;
+  Renderer renderer;
+  gpu::StageTimers timers;
+};
+
+}  // namespace izb

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// All that a shadow technique may read of a frame.
+#pragma once
+#include <functional>
+#include <memory>
+
+#include "frame/gbuffer.h"
+
+namespace izb {
+
+struct FrameInputs {
+  int width_px = 0, height_px = 0;
+  shared::CameraFrame camera;
+  shared::LightFrame light;
+  const GBuffer* gbuffer = nullptr;  ///< its textures are bound to their units
+  /// Draws every triangle of the scene once: attributes position and instance, storage block of instances bound.
+  std::function<void()> draw_casters;
+  /// The frame's triangles in view space on the CPU, in the frame's numbering; made on first use.
+  std::function<const std::vector<glm::vec3>&()> triangles_vs;
+  /// Of each instance (G-buffer id - 1): its first triangle in the frame's numbering.
+  const std::vector<uint32_t>* first_triangle = nullptr;
+};
+
+/// What a technique writes: 32 samples a pixel, a set bit is an occluded sample; 0 where there is nothing to shadow.
+struct Visibility {
+  gpu::Texture mask;  ///< R32UI, bottom row first
+};
+
+}  // namespace izb

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "frame/frame_setup.h"
+
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "base/error.h"
+
+namespace izb {
+namespace {
+
+constexpr double largest_spot_half_angle_deg = 60.0;
+
+glm::vec4 with_w(const glm::dvec3& v, double w) {
+  return glm::vec4(glm::dvec4(v, w));
+}
+
+}  // namespace
+
+shared::CameraFrame make_camera_frame(const Camera& camera, int width_px, int height_px) {
+  const double width = width_px, height = height_px, aspect = width / height;
+  const double half_height = camera.orthographic ? camera.ymag : std::tan(0.5 * camera.yfov_rad);
+  const double half_width = half_height * aspect;
+  const double near = camera.near_plane, far = camera.far_plane;
+  glm::dmat4 clip(0.0);
+  clip[0][0] = 1.0 / half_width;
+  clip[1][1] = 1.0 / half_height;
+  if (camera.orthographic) {
+    clip[2][2] = 1.0 / (far - near);
+    clip[3][2] = far / (far - near);
+    clip[3][3] = 1.0;
+  } else {
+    const bool infinite = std::isinf(far);
+    clip[2][2] = infinite ? 0.0 : near / (far - near);
+    clip[3][2] = infinite ? near : near * far / (far - near);
+    clip[2][3] = -1.0;
+  }
+  shared::CameraFrame frame;
+  frame.clip_from_view = glm::mat4(clip);
+  frame.pixel_ray = glm::vec4(2.0 * half_width / width, 2.0 * half_height / height, -half_width, -half_height);
+  const double pixel = 2.0 * half_height / height;
+  frame.footprint = camera.orthographic ? glm::vec4(0.0, pixel, 0.0, 0.0) : glm::vec4(pixel, 0.0, 1.0, 0.0);
+  frame.size_px = glm::uvec4(width_px, height_px, 0, 0);
+  return frame;
+}
+
+shared::LightFrame make_light_frame(const Camera& camera, const Light& light, const GridRequest& grid) {
+  if (light.type == LightType::point)
+    fail("light '{}' is an omnidirectional point light, which is not supported yet; name a directional or spot light",
+         light.name);
+  const bool positional = light.type == LightType::spot;
+  if (positional && light.outer_cone_rad > glm::radians(largest_spot_half_angle_deg) + 1e-6)
+    fail("light '{}' has a half-angle of {:.1f} degrees; spot lights up to {} degrees are supported", light.name,
+         glm::degrees(light.outer_cone_rad), largest_spot_half_angle_deg);
+
+  const glm::dmat4 view_from_world = glm::inverse(camera.world_from_view);
+  const glm::dvec3 z = glm::normalize(glm::dmat3(view_from_world) * light.direction_ws);
+  // The grid's x axis follows the view as seen from the light, so that the window is tight around the view frustum.
+  const glm::dvec3 forward(0.0, 0.0, -1.0), up(0.0, 1.0, 0.0);
+  const glm::dvec3 hint = std::abs(glm::dot(forward, z)) < 0.99 ? forward : up;
+  const glm::dvec3 x = glm::normalize(hint - z * glm::dot(hint, z));
+  const glm::dvec3 y = glm::cross(z, x);
+  shared::LightFrame frame;
+  frame.axis_x = with_w(x, 0.0);
+  frame.axis_y = with_w(y, 0.0);
+  frame.axis_z = with_w(z, 0.0);
+  frame.origin =
+      positional ? with_w(glm::dvec3(view_from_world * glm::dvec4(light.position_ws, 1.0)), 1.0) : glm::vec4(0.0f);
+  frame.to_light =
+      glm::vec4(-glm::vec3(frame.axis_z), positional ? static_cast<float>(std::cos(light.outer_cone_rad)) : -1.0f);
+  frame.color = glm::vec4(light.color, grid.nl_cull ? 1.0f : 0.0f);
+  frame.grid = glm::uvec4(grid.texels, 0, 0, 0);
+  return frame;
+}
+
+std::vector<shared::InstanceFrame> make_instance_frames(const Camera& camera, const Scene& scene,
+                                                        const DrawList& list) {
+  const glm::dmat4 view_from_world = glm::inverse(camera.world_from_view);
+  std::vector<shared::InstanceFrame> frames(list.instances.size());
+  for (size_t i = 0; i < frames.size(); ++i) {
+    const Instance& instance = scene.instances[list.instances[i]];
+    const glm::mat4 rows = glm::mat4(glm::transpose(view_from_world * instance.world_from_object));
+    frames[i] = {
+        rows[0], rows[1], rows[2],
+        glm::uvec4(list.first_triangle[i], scene.meshes[instance.mesh].material, list.first_index[instance.mesh], 0)};
+  }
+  return frames;
+}
+
+std::vector<shared::MaterialFrame> make_materials(const Scene& scene) {
+  std::vector<shared::MaterialFrame> frames;
+  for (const Material& m : scene.materials) {
+    const glm::mat3 rows = glm::transpose(m.uv_transform);
+    frames.push_back({m.base_color, glm::vec4(rows[0], 0.0f), glm::vec4(rows[1], 0.0f)});
+  }
+  return frames;
+}
+
+shared::ShadeFrame make_shade_frame(const Camera& camera, const Light& light) {
+  const glm::dvec3 up = glm::transpose(glm::dmat3(camera.world_from_view)) * glm::dvec3(0.0, 1.0, 0.0);
+  constexpr double ambient = 0.35;
+  shared::ShadeFrame frame;
+  frame.up_vs = with_w(up, ambient);
+  frame.sky_horizon = glm::vec4(0.80f, 0.85f, 0.90f, 0.0f);
+  frame.sky_zenith = glm::vec4(0.30f, 0.47f, 0.75f, 0.0f);
+  frame.ground = glm::vec4(0.30f, 0.28f, 0.26f, 0.0f);
+  frame.cone = glm::vec4(std::cos(light.inner_cone_rad), std::cos(light.outer_cone_rad), 0.0, 0.0);
+  return frame;
+}
+
+std::vector<glm::vec3> flatten(const Scene& scene, const DrawList& list,
+                               const std::vector<shared::InstanceFrame>& instances) {
+  std::vector<glm::vec3> positions;
+  positions.reserve(size_t(list.triangle_count) * 3);
+  std::vector<glm::vec3> moved;
+  for (size_t i = 0; i < instances.size(); ++i) {
+    const Mesh& mesh = scene.meshes[scene.instances[list.instances[i]].mesh];
+    moved.resize(mesh.positions.size());
+    for (size_t v = 0; v < moved.size(); ++v) moved[v] = shared::view_from_object(instances[i], mesh.positions[v]);
+    for (const uint32_t index : mesh.indices) positions.push_back(moved[index]);
+  }
+  return positions;
+}
+
+}  // namespace izb

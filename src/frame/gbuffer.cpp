@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "frame/gbuffer.h"
+
+#include "frame/spine.h"
+#include "shared/bindings.h"
+
+namespace izb {
+
+GBuffer::GBuffer(int width_px, int height_px)
+    : depth("depth", GL_DEPTH_COMPONENT32F, width_px, height_px),
+      id("id", GL_RG32UI, width_px, height_px),
+      eye_distance("eye distance", GL_R32F, width_px, height_px),
+      normal("normal", GL_RG32F, width_px, height_px),
+      shading_normal("shading normal", GL_RG16, width_px, height_px),
+      albedo("albedo", GL_SRGB8_ALPHA8, width_px, height_px) {}
+
+void GBuffer::bind() const {
+  glBindTextureUnit(UNIT_ID, id.name());
+  glBindTextureUnit(UNIT_EYE_DISTANCE, eye_distance.name());
+  glBindTextureUnit(UNIT_NORMAL, normal.name());
+  glBindTextureUnit(UNIT_SHADING_NORMAL, shading_normal.name());
+  glBindTextureUnit(UNIT_ALBEDO, albedo.name());
+}
+
+size_t GBuffer::bytes() const {
+  return depth.bytes() + id.bytes() + eye_distance.bytes() + normal.bytes() + shading_normal.bytes() + albedo.bytes();
+}
+
+std::vector<gpu::ProgramSpec> GBufferStage::program_specs() {
+  return {{"gbuffer", {"frame/1_gbuffer.vert.glsl", "frame/1_gbuffer.frag.glsl"}, {}},
+          {"gbuffer resolve", {"frame/1_gbuffer_resolve.comp.glsl"}, {}}};
+}
+
+GBufferStage::GBufferStage() : draw_(program_specs()[0]), resolve_(program_specs()[1]) {}
+
+void GBufferStage::resize(int width_px, int height_px) {
+  gbuffer_ = GBuffer(width_px, height_px);
+  framebuffer_ =
+      gpu::Framebuffer("gbuffer", {&gbuffer_.id, &gbuffer_.albedo, &gbuffer_.shading_normal}, &gbuffer_.depth);
+}
+
+void GBufferStage::render(const SceneBuffers& scene, gpu::StageTimers& timers) {
+  const gpu::StageTimers::Scope scope(timers, name(Stage::gbuffer));
+  const int width_px = gbuffer_.id.width_px(), height_px = gbuffer_.id.height_px();
+  const GLuint no_id[4] = {0, 0, 0, 0};
+  const float black[4] = {0.0f, 0.0f, 0.0f, 0.0f}, furthest = 0.0f;  // reversed depth
+  glDepthMask(GL_TRUE);
+  glClearNamedFramebufferuiv(framebuffer_.name(), GL_COLOR, 0, no_id);
+  glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 1, black);
+  glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 2, black);
+  glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &furthest);
+
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+  glViewport(0, 0, width_px, height_px);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GREATER);
+  glEnable(GL_FRAMEBUFFER_SRGB);
+  draw_.use();
+  scene.draw_with_textures();
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  glDisable(GL_DEPTH_TEST);
+
+  gbuffer_.bind();
+  glBindImageTexture(IMAGE_EYE_DISTANCE, gbuffer_.eye_distance.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
+  glBindImageTexture(IMAGE_NORMAL, gbuffer_.normal.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32F);
+  resolve_.dispatch(width_px, height_px, 16, 16);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+}  // namespace izb

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "frame/scene_buffers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "shared/bindings.h"
+
+namespace izb {
+namespace {
+
+/// Joins one array of every mesh; a mesh without it gets zeros.
+template <typename T>
+gpu::Buffer join(const std::string& label, const Scene& scene, const DrawList& list, std::vector<T> Mesh::*member) {
+  std::vector<T> all(list.vertex_count, T(0.0f));
+  for (size_t m = 0; m < scene.meshes.size(); ++m) {
+    const std::vector<T>& part = scene.meshes[m].*member;
+    std::copy(part.begin(), part.end(), all.begin() + list.first_vertex[m]);
+  }
+  return gpu::Buffer(label, all);
+}
+
+GLint gl_wrap(Wrap wrap) {
+  switch (wrap) {
+    case Wrap::repeat:
+      return GL_REPEAT;
+    case Wrap::mirrored_repeat:
+      return GL_MIRRORED_REPEAT;
+    default:
+      return GL_CLAMP_TO_EDGE;
+  }
+}
+
+}  // namespace
+
+SceneBuffers::SceneBuffers(const Scene& scene, DrawList list, const gpu::Capabilities& capabilities)
+    : list_(std::move(list)) {
+  const size_t largest = std::max<size_t>({list_.vertex_count * sizeof(glm::vec3), list_.index_count * sizeof(uint32_t),
+                                           list_.instances.size() * sizeof(shared::InstanceFrame)});
+  if (largest > static_cast<size_t>(capabilities.max_storage_block_bytes))
+    fail("scene '{}' needs a buffer of {} MB, but this GL driver stops at {} MB", scene.name, largest >> 20,
+         capabilities.max_storage_block_bytes >> 20);
+  upload_geometry(scene);
+  upload_textures(scene);
+}
+
+void SceneBuffers::upload_geometry(const Scene& scene) {
+  positions_ = join("positions", scene, list_, &Mesh::positions);
+  normals_ = join("normals", scene, list_, &Mesh::normals);
+  uvs_ = join("uvs", scene, list_, &Mesh::uvs);
+  std::vector<uint32_t> indices;
+  indices.reserve(list_.index_count);
+  for (size_t m = 0; m < scene.meshes.size(); ++m)
+    for (const uint32_t i : scene.meshes[m].indices) indices.push_back(i + list_.first_vertex[m]);
+  indices_ = gpu::Buffer("indices", indices);
+  std::vector<uint32_t> ids(list_.instances.size());
+  std::iota(ids.begin(), ids.end(), 0u);
+  instance_ids_ = gpu::Buffer("instance ids", ids);
+  commands_ = gpu::Buffer("draw commands", list_.commands);
+  instances_ = gpu::Buffer("instances", list_.instances.size() * sizeof(shared::InstanceFrame));
+  materials_ = gpu::Buffer("materials", make_materials(scene));
+
+  vertex_array_ = gpu::VertexArray("scene");
+  const GLuint va = vertex_array_.name();
+  const auto floats = [&](GLuint attribute, const gpu::Buffer& buffer, GLint components) {
+    glVertexArrayVertexBuffer(va, attribute, buffer.name(), 0, components * GLsizei{sizeof(float)});
+    glVertexArrayAttribFormat(va, attribute, components, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(va, attribute, attribute);
+    glEnableVertexArrayAttrib(va, attribute);
+  };
+  floats(ATTRIBUTE_POSITION, positions_, 3);
+  floats(ATTRIBUTE_NORMAL, normals_, 3);
+  floats(ATTRIBUTE_UV, uvs_, 2);
+  glVertexArrayVertexBuffer(va, ATTRIBUTE_INSTANCE, instance_ids_.name(), 0, sizeof(uint32_t));
+  glVertexArrayAttribIFormat(va, ATTRIBUTE_INSTANCE, 1, GL_UNSIGNED_INT, 0);
+  glVertexArrayAttribBinding(va, ATTRIBUTE_INSTANCE, ATTRIBUTE_INSTANCE);
+  glVertexArrayBindingDivisor(va, ATTRIBUTE_INSTANCE, 1);
+  glEnableVertexArrayAttrib(va, ATTRIBUTE_INSTANCE);
+  glVertexArrayElementBuffer(va, indices_.name());
+}
+
+void SceneBuffers::upload_textures(const Scene& scene) {
+  white_ = gpu::Texture("white", GL_SRGB8_ALPHA8, 1, 1);
+  const uint8_t white[4] = {255, 255, 255, 255};
+  white_.clear(GL_RGBA, GL_UNSIGNED_BYTE, white);
+  for (const Texture& t : scene.textures) {
+    const int levels = 1 + static_cast<int>(std::floor(std::log2(std::max(t.width_px, t.height_px))));
+    gpu::Texture texture("base colour " + t.name, GL_SRGB8_ALPHA8, t.width_px, t.height_px, levels);
+    glTextureSubImage2D(texture.name(), 0, 0, 0, t.width_px, t.height_px, GL_RGBA, GL_UNSIGNED_BYTE, t.rgba.data());
+    glGenerateTextureMipmap(texture.name());
+    gpu::Sampler sampler("base colour " + t.name);
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_S, gl_wrap(t.wrap_u));
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_T, gl_wrap(t.wrap_v));
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_MIN_FILTER,
+                        t.nearest ? GL_NEAREST_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_MAG_FILTER, t.nearest ? GL_NEAREST : GL_LINEAR);
+    textures_.push_back(std::move(texture));
+    samplers_.push_back(std::move(sampler));
+  }
+}
+
+void SceneBuffers::update_instances(const std::vector<shared::InstanceFrame>& instances) {
+  instances_.update(0, instances.size() * sizeof(shared::InstanceFrame), instances.data());
+}
+
+void SceneBuffers::bind_storage() const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_INSTANCES, instances_.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_POSITIONS, positions_.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_INDICES, indices_.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_MATERIALS, materials_.name());
+}
+
+void SceneBuffers::draw_with_textures() const {
+  bind_storage();
+  glBindVertexArray(vertex_array_.name());
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
+  for (const DrawGroup& group : list_.groups) {
+    const bool textured = group.texture >= 0;
+    glBindTextureUnit(UNIT_BASE_COLOR, textured ? textures_[group.texture].name() : white_.name());
+    glBindSampler(UNIT_BASE_COLOR, textured ? samplers_[group.texture].name() : 0);
+    const uintptr_t offset_bytes = group.first_command * sizeof(DrawCommand);
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset_bytes),
+                                static_cast<GLsizei>(group.command_count), 0);
+  }
+  glBindSampler(UNIT_BASE_COLOR, 0);
+}
+
+void SceneBuffers::draw_casters() const {
+  bind_storage();
+  glBindVertexArray(vertex_array_.name());
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
+  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, static_cast<GLsizei>(list_.commands.size()), 0);
+}
+
+size_t SceneBuffers::bytes() const {
+  size_t sum = positions_.bytes() + normals_.bytes() + uvs_.bytes() + indices_.bytes() + instance_ids_.bytes() +
+               commands_.bytes() + instances_.bytes() + materials_.bytes();
+  for (const gpu::Texture& t : textures_) sum += t.bytes();
+  return sum;
+}
+
+}  // namespace izb

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// A scene on the GPU: joined vertex and index buffers, textures, and the draw calls over them.
+#pragma once
+#include "frame/frame_setup.h"
+#include "gpu/capabilities.h"
+#include "gpu/objects.h"
+
+namespace izb {
+
+class SceneBuffers {
+ public:
+  /// Uploads. Throws izb::Error if a buffer is larger than the driver takes.
+  SceneBuffers(const Scene& scene, DrawList list, const gpu::Capabilities& capabilities);
+
+  const DrawList& draw_list() const { return list_; }
+  void update_instances(const std::vector<shared::InstanceFrame>& instances);
+
+  /// Draws everything once, base-colour textures bound group by group, for the G-buffer.
+  void draw_with_textures() const;
+  /// Draws every triangle once: attributes position and instance, for techniques that cast shadows.
+  void draw_casters() const;
+  /// Binds instances, positions, indices and materials as storage blocks.
+  void bind_storage() const;
+
+  size_t bytes() const;
+
+ private:
+  void upload_geometry(const Scene& scene);
+  void upload_textures(const Scene& scene);
+
+  DrawList list_;
+  gpu::Buffer positions_, normals_, uvs_, indices_, instance_ids_, commands_, instances_, materials_;
+  gpu::VertexArray vertex_array_;
+  gpu::Texture white_;
+  std::vector<gpu::Texture> textures_;
+  std::vector<gpu::Sampler> samplers_;
+};
+
+}  // namespace izb

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// The six stages of the paper (5.1 to 5.6), one word each. The same word is the shader file, the debug group, the
+// timer, the JSON and CSV key, and the heading in the docs.
+#pragma once
+#include <array>
+
+namespace izb {
+
+enum class Stage { gbuffer, bounds, build, zcull, visibility, shade };
+
+inline constexpr std::array<const char*, 6> stage_names{"gbuffer", "bounds", "build", "zcull", "visibility", "shade"};
+
+inline constexpr const char* name(Stage stage) {
+  return stage_names[static_cast<size_t>(stage)];
+}
+
+}  // namespace izb

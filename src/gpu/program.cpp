@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "gpu/program.h"
+
+#include "base/error.h"
+
+namespace izb::gpu {
+namespace {
+
+GLenum gl_kind(ShaderKind kind) {
+  switch (kind) {
+    case ShaderKind::vertex:
+      return GL_VERTEX_SHADER;
+    case ShaderKind::geometry:
+      return GL_GEOMETRY_SHADER;
+    case ShaderKind::fragment:
+      return GL_FRAGMENT_SHADER;
+    default:
+      return GL_COMPUTE_SHADER;
+  }
+}
+
+/// The driver names files by their index (#line LINE INDEX): give the list, so that its message can be read.
+std::string file_list(const CheckedShader& shader) {
+  std::string text;
+  for (size_t i = 0; i < shader.files.size(); ++i) text += fmt::format("\n  file {}: {}", i, shader.files[i]);
+  return text;
+}
+
+}  // namespace
+
+Program::Program(const ProgramSpec& spec) {
+  name_ = glCreateProgram();
+  glObjectLabel(GL_PROGRAM, name_, static_cast<GLsizei>(spec.label.size()), spec.label.data());
+  for (const CheckedShader& checked : check_program(spec)) {
+    const GLuint shader = glCreateShader(gl_kind(checked.kind));
+    const GLchar* text = checked.text.c_str();
+    glShaderSource(shader, 1, &text, nullptr);
+    glCompileShader(shader);
+    GLint compiled = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+    if (!compiled) {
+      char log[4096] = {};
+      glGetShaderInfoLog(shader, sizeof log, nullptr, log);
+      glDeleteShader(shader);
+      fail("the GL driver refused a shader of '{}':\n{}{}", spec.label, log, file_list(checked));
+    }
+    glAttachShader(name_, shader);
+    glDeleteShader(shader);
+  }
+  glLinkProgram(name_);
+  GLint linked = 0;
+  glGetProgramiv(name_, GL_LINK_STATUS, &linked);
+  if (!linked) {
+    char log[4096] = {};
+    glGetProgramInfoLog(name_, sizeof log, nullptr, log);
+    fail("the GL driver cannot link '{}':\n{}", spec.label, log);
+  }
+}
+
+void Program::dispatch(int width, int height, int group_w, int group_h) const {
+  use();
+  glDispatchCompute(static_cast<GLuint>((width + group_w - 1) / group_w),
+                    static_cast<GLuint>((height + group_h - 1) / group_h), 1);
+}
+
+}  // namespace izb::gpu

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "gpu/glsl_front_end.h"
+#include "gpu/objects.h"
+
+namespace izb::gpu {
+
+struct ProgramTraits {
+  static void destroy(GLuint name) { glDeleteProgram(name); }
+};
+
+/// A linked program. All bindings and locations are explicit in the text, so there is nothing to look up.
+class Program : public Object<ProgramTraits> {
+ public:
+  Program() = default;
+  /// Checks with glslang, then compiles and links. Throws izb::Error with file:line.
+  explicit Program(const ProgramSpec& spec);
+
+  void use() const { glUseProgram(name_); }
+  /// Uses the program and runs it over at least `width` x `height` invocations in groups of group_w x group_h.
+  void dispatch(int width, int height, int group_w, int group_h) const;
+};
+
+}  // namespace izb::gpu

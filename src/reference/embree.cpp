@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: MIT
+#include "reference/embree.h"
+
+#include <atomic>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "reference/parallel.h"
+
+#if IZB_EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+namespace izb::reference {
+namespace {
+
+constexpr int packet = 16;
+// Packets cover tiles of pixels where the rows are known: less far apart than 16 pixels of a row.
+constexpr size_t packet_width = 8, packet_height = 2;
+constexpr size_t rays_per_chunk = 4096;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+// What the filters below need beside the ray. Embree hands back the pointer to its context: it comes first.
+struct Query {
+#if IZB_EMBREE_MAJOR >= 4
+  RTCRayQueryContext context;
+#else
+  RTCIntersectContext context;
+#endif
+  const uint32_t* own_triangle = nullptr;     // shadow rays: indexed by the ray's id
+  std::vector<uint32_t>* all_hits = nullptr;  // all_hits(): takes every hit and lets the ray go on
+
+  explicit Query(bool coherent) {
+#if IZB_EMBREE_MAJOR >= 4
+    rtcInitRayQueryContext(&context);
+    (void)coherent;
+#else
+    rtcInitIntersectContext(&context);
+    if (coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+#endif
+  }
+};
+
+// A filter costs less than the noise of measuring it (it runs once a hit), and no offset along the ray would
+// do: at grazing light a point's own triangle is met arbitrarily far away.
+void skip_own_triangle(const RTCFilterFunctionNArguments* args) {
+  const uint32_t* own = reinterpret_cast<const Query*>(args->context)->own_triangle;
+  for (unsigned i = 0; i < args->N; ++i)
+    if (args->valid[i] != 0 &&  // lanes that are off hold no id
+        own[RTCRayN_id(args->ray, args->N, i)] == RTCHitN_primID(args->hit, args->N, i))
+      args->valid[i] = 0;
+}
+
+void collect_all(const RTCFilterFunctionNArguments* args) {
+  std::vector<uint32_t>* all = reinterpret_cast<const Query*>(args->context)->all_hits;
+  if (!all) return;
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    all->push_back(RTCHitN_primID(args->hit, args->N, i));
+    args->valid[i] = 0;
+  }
+}
+
+void occluded(const int* valid, RTCScene scene, RTCRay16& rays, Query& query) {
+#if IZB_EMBREE_MAJOR >= 4
+  RTCOccludedArguments args;
+  rtcInitOccludedArguments(&args);
+  args.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  args.context = &query.context;
+  rtcOccluded16(valid, scene, &rays, &args);
+#else
+  rtcOccluded16(valid, scene, &query.context, &rays);
+#endif
+}
+
+void intersect(const int* valid, RTCScene scene, RTCRayHit16& rays, Query& query) {
+#if IZB_EMBREE_MAJOR >= 4
+  RTCIntersectArguments args;
+  rtcInitIntersectArguments(&args);
+  args.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  args.context = &query.context;
+  rtcIntersect16(valid, scene, &rays, &args);
+#else
+  rtcIntersect16(valid, scene, &query.context, &rays);
+#endif
+}
+
+void intersect(RTCScene scene, RTCRayHit& ray, Query& query) {
+#if IZB_EMBREE_MAJOR >= 4
+  RTCIntersectArguments args;
+  rtcInitIntersectArguments(&args);
+  args.context = &query.context;
+  rtcIntersect1(scene, &ray, &args);
+#else
+  rtcIntersect1(scene, &query.context, &ray);
+#endif
+}
+
+RTCBuildQuality embree_quality(BuildQuality quality) {
+  switch (quality) {
+    case BuildQuality::low:
+      return RTC_BUILD_QUALITY_LOW;
+    case BuildQuality::medium:
+      return RTC_BUILD_QUALITY_MEDIUM;
+    case BuildQuality::high:
+      return RTC_BUILD_QUALITY_HIGH;
+  }
+  fail("unknown Embree build quality {}", static_cast<int>(quality));
+}
+
+double ms_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+float largest(const glm::vec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+// Points are rounded to float, so they lie up to an ulp of their largest coordinate off their surface: a ray
+// starts 8 such ulps away, or it would meet the neighbours and coplanar duplicates of its own triangle. An
+// occluder within that distance is lost to the ray; it is far less than the band (1/64 pixel: some 100 ulps).
+float start_distance(const glm::vec3& point) {
+  return 8.0f * largest(point) * 0x1p-23f;
+}
+
+// Collects receivers until 16 rays are full. Packets hold receivers only, whatever lies between them.
+class ShadowPacket {
+ public:
+  ShadowPacket(RTCScene scene, const LightPoint& light, const Receivers& receivers, std::vector<uint32_t>& mask)
+      : scene_(scene),
+        light_(light),
+        points_(receivers.points_vs.data()),
+        classes_(receivers.classes.data()),
+        mask_(mask),
+        query_(true) {
+    query_.own_triangle = receivers.own_triangle.data();
+    for (int lane = 0; lane < packet; ++lane)
+      ray_.time[lane] = 0.0f, ray_.mask[lane] = 0xFFFFFFFFu, ray_.flags[lane] = 0;
+  }
+
+  // The receivers among [begin, end).
+  void add(size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i)
+      if (classes_[i] == PixelClass::receiver) add(i);
+  }
+
+  // Traces what is left; returns the number of rays of all packets.
+  uint64_t finish() {
+    if (lanes_) flush();
+    return traced_;
+  }
+
+ private:
+  void add(size_t i) {
+    const glm::vec3& p = points_[i];
+    const glm::vec3 d = light_.positional ? light_.xyz_vs - p : light_.xyz_vs;
+    ray_.org_x[lanes_] = p.x, ray_.org_y[lanes_] = p.y, ray_.org_z[lanes_] = p.z;
+    ray_.dir_x[lanes_] = d.x, ray_.dir_y[lanes_] = d.y, ray_.dir_z[lanes_] = d.z;
+    // Distances are in units of the direction; the largest coordinate stands for its length (within sqrt(3)).
+    ray_.tnear[lanes_] = start_distance(p) / largest(d);
+    ray_.tfar[lanes_] = light_.positional ? 1.0f - 0x1p-24f : infinity;  // strictly before the light
+    ray_.id[lanes_] = static_cast<unsigned>(i);
+    if (++lanes_ == packet) flush();
+  }
+
+  void flush() {
+    alignas(64) int valid[packet];
+    for (int lane = 0; lane < packet; ++lane) valid[lane] = lane < lanes_ ? -1 : 0;
+    occluded(valid, scene_, ray_, query_);
+    for (int lane = 0; lane < lanes_; ++lane)
+      if (ray_.tfar[lane] < 0.0f) mask_[ray_.id[lane]] = 0xFFFFFFFFu;  // Embree: -infinity where occluded
+    traced_ += static_cast<uint64_t>(lanes_);
+    lanes_ = 0;
+  }
+
+  RTCScene scene_;
+  const LightPoint& light_;
+  const glm::vec3* points_;
+  const PixelClass* classes_;
+  std::vector<uint32_t>& mask_;
+  Query query_;
+  RTCRay16 ray_;
+  int lanes_ = 0;
+  uint64_t traced_ = 0;
+};
+
+}  // namespace
+
+bool embree_available() {
+  return true;
+}
+
+const char* embree_version() {
+  return "Embree " RTC_VERSION_STRING;
+}
+
+struct RayTracer::State {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  RTCGeometry geometry = nullptr;
+  unsigned threads = 0;
+  double build_ms = 0.0;
+
+  ~State() {
+    if (geometry) rtcReleaseGeometry(geometry);
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+
+  void check(const char* what) const {
+    if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
+      fail("Embree failed to {} (error {})", what, static_cast<int>(error));
+  }
+};
+
+RayTracer::RayTracer(const Triangles& triangles, BuildQuality quality, unsigned threads)
+    : state_(std::make_unique<State>()) {
+  const size_t count = triangles.count();
+  if (count == 0) fail("cannot trace rays: the frame has no triangle");
+  if (triangles.positions_vs.size() % 3 != 0 || count >= no_triangle / 3)
+    fail("cannot trace rays: {} vertices are not a list of fewer than 2^32 / 3 triangles",
+         triangles.positions_vs.size());
+  State& s = *state_;
+  s.threads = thread_count(threads);
+  s.device = rtcNewDevice(("threads=" + std::to_string(s.threads)).c_str());
+  if (!s.device) fail("Embree cannot make a device (error {})", static_cast<int>(rtcGetDeviceError(nullptr)));
+  s.scene = rtcNewScene(s.device);
+  s.geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  // Embree reads 16 bytes at each vertex, so it gets buffers of its own, which it pads.
+  auto* vertices = static_cast<glm::vec3*>(
+      rtcSetNewGeometryBuffer(s.geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), 3 * count));
+  auto* indices = static_cast<uint32_t*>(
+      rtcSetNewGeometryBuffer(s.geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), count));
+  if (!vertices || !indices) fail("Embree has no memory for {} triangles", count);
+  std::copy(triangles.positions_vs.begin(), triangles.positions_vs.end(), vertices);
+  for (size_t i = 0; i < 3 * count; ++i) indices[i] = static_cast<uint32_t>(i);
+  rtcSetGeometryOccludedFilterFunction(s.geometry, skip_own_triangle);
+  rtcSetGeometryIntersectFilterFunction(s.geometry, collect_all);
+  rtcAttachGeometry(s.scene, s.geometry);
+  rebuild(quality);
+}
+
+RayTracer::~RayTracer() = default;
+RayTracer::RayTracer(RayTracer&&) noexcept = default;
+RayTracer& RayTracer::operator=(RayTracer&&) noexcept = default;
+
+double RayTracer::build_ms() const {
+  return state_->build_ms;
+}
+
+double RayTracer::rebuild(BuildQuality quality) {
+  State& s = *state_;
+  // Robust: no ray slips between triangles that share an edge. Low is Embree's builder for dynamic scenes.
+  int flags = RTC_SCENE_FLAG_ROBUST;
+  if (quality == BuildQuality::low) flags |= RTC_SCENE_FLAG_DYNAMIC;
+  rtcSetSceneFlags(s.scene, static_cast<RTCSceneFlags>(flags));
+  rtcSetSceneBuildQuality(s.scene, embree_quality(quality));
+  rtcSetGeometryBuildQuality(s.geometry, embree_quality(quality));
+  rtcUpdateGeometryBuffer(s.geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+  rtcCommitGeometry(s.geometry);
+  const auto start = std::chrono::steady_clock::now();
+  rtcCommitScene(s.scene);
+  s.build_ms = ms_since(start);
+  s.check("build its hierarchy");
+  return s.build_ms;
+}
+
+MaskTrace RayTracer::trace_mask(const LightPoint& light, const Receivers& receivers) const {
+  const State& s = *state_;
+  const size_t count = receivers.points_vs.size();
+  if (receivers.own_triangle.size() != count || receivers.classes.size() != count)
+    fail("cannot trace a mask: {} points come with {} triangles and {} classes", count, receivers.own_triangle.size(),
+         receivers.classes.size());
+  const size_t width = static_cast<size_t>(std::max(receivers.width_px, 0));
+  if (width != 0 && count % width != 0) fail("cannot trace a mask: {} points do not fill rows of {}", count, width);
+  MaskTrace result;
+  result.mask.resize(count);
+  std::atomic<uint64_t> rays{0};
+  const auto start = std::chrono::steady_clock::now();
+  if (width == 0) {
+    parallel_for(count, rays_per_chunk, s.threads, [&](size_t begin, size_t end, unsigned) {
+      ShadowPacket packets(s.scene, light, receivers, result.mask);
+      packets.add(begin, end);
+      rays += packets.finish();
+    });
+  } else {
+    parallel_for(count / width, packet_height, s.threads, [&](size_t first_row, size_t end_row, unsigned) {
+      ShadowPacket packets(s.scene, light, receivers, result.mask);
+      for (size_t left = 0; left < width; left += packet_width)
+        for (size_t row = first_row; row < end_row; ++row)
+          packets.add(row * width + left, row * width + std::min(left + packet_width, width));
+      rays += packets.finish();
+    });
+  }
+  result.trace_ms = ms_since(start);
+  result.rays = rays;
+  s.check("trace shadow rays");
+  return result;
+}
+
+PrimaryHits RayTracer::primary_hits(std::span<const glm::vec3> origins, std::span<const glm::vec3> directions,
+                                    float t_near, float t_far) const {
+  const State& s = *state_;
+  const size_t count = directions.size();
+  if (origins.size() != 1 && origins.size() != count)
+    fail("cannot trace camera rays: {} directions come with {} origins", count, origins.size());
+  PrimaryHits hits;
+  hits.triangle.resize(count, no_triangle);
+  hits.t.resize(count, infinity);
+  parallel_for(count, rays_per_chunk, s.threads, [&](size_t begin, size_t end, unsigned) {
+    Query query(true);
+    RTCRayHit16 rays;
+    alignas(64) int valid[packet];
+    for (size_t first = begin; first < end; first += packet) {
+      for (int lane = 0; lane < packet; ++lane) {
+        const size_t i = first + static_cast<size_t>(lane);
+        valid[lane] = i < end ? -1 : 0;
+        const glm::vec3 o = origins[origins.size() == 1 ? 0 : std::min(i, end - 1)];
+        const glm::vec3 d = directions[std::min(i, end - 1)];
+        rays.ray.org_x[lane] = o.x, rays.ray.org_y[lane] = o.y, rays.ray.org_z[lane] = o.z;
+        rays.ray.dir_x[lane] = d.x, rays.ray.dir_y[lane] = d.y, rays.ray.dir_z[lane] = d.z;
+        rays.ray.tnear[lane] = t_near, rays.ray.tfar[lane] = t_far;
+        rays.ray.time[lane] = 0.0f, rays.ray.mask[lane] = 0xFFFFFFFFu, rays.ray.flags[lane] = 0;
+        rays.ray.id[lane] = static_cast<unsigned>(i);
+        rays.hit.geomID[lane] = rays.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+      }
+      intersect(valid, s.scene, rays, query);
+      for (size_t i = first; i < std::min(first + packet, end); ++i) {
+        const size_t lane = i - first;
+        if (rays.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
+        hits.triangle[i] = rays.hit.primID[lane];
+        hits.t[i] = rays.ray.tfar[lane];
+      }
+    }
+  });
+  s.check("trace camera rays");
+  return hits;
+}
+
+std::vector<uint32_t> RayTracer::all_hits(const glm::vec3& origin, const glm::vec3& direction, float t_near,
+                                          float t_far) const {
+  std::vector<uint32_t> found;
+  Query query(false);
+  query.all_hits = &found;
+  RTCRayHit ray{};
+  ray.ray.org_x = origin.x, ray.ray.org_y = origin.y, ray.ray.org_z = origin.z;
+  ray.ray.dir_x = direction.x, ray.ray.dir_y = direction.y, ray.ray.dir_z = direction.z;
+  ray.ray.tnear = t_near, ray.ray.tfar = t_far;
+  ray.ray.mask = 0xFFFFFFFFu;
+  ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  intersect(state_->scene, ray, query);
+  state_->check("trace a camera ray");
+  // A hierarchy with spatial splits may offer one triangle several times.
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+}  // namespace izb::reference

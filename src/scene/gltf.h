@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <filesystem>
+
+#include "scene/scene.h"
+
+namespace izb {
+
+/// Loads a glTF 2.0 file (.gltf or .glb). Skinned and morphed meshes stand in bind pose.
+/// Throws izb::Error with one sentence that names the file and the cause; never returns a scene with an index out of
+/// range, a position that is not finite, or no triangle.
+Scene load_gltf(const std::filesystem::path& path);
+
+}  // namespace izb

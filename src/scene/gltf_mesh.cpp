@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+#include "scene/gltf_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "scene/gltf_accessor.h"
+#include "scene/gltf_material.h"
+
+namespace izb {
+namespace {
+
+bool finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
+  const auto it = primitive.attributes.find(name);
+  return it == primitive.attributes.end() ? -1 : it->second;
+}
+
+void check_count(const tinygltf::Model& model, int accessor, size_t count, const std::string& name) {
+  if (accessor_count(model, accessor) != count)
+    fail("{} has {} elements, but POSITION has {}", name, accessor_count(model, accessor), count);
+}
+
+/// Unrolls a strip or fan (glTF 2.0, section 3.7.2.1) and drops an incomplete last triangle.
+std::vector<uint32_t> to_triangle_list(std::vector<uint32_t> order, int mode, MeshTally& tally) {
+  if (mode == TINYGLTF_MODE_TRIANGLES) {
+    const size_t extra = order.size() % 3;
+    tally.trailing_indices += extra;
+    order.resize(order.size() - extra);
+    return order;
+  }
+  if (order.size() < 3) {
+    tally.trailing_indices += order.size();
+    return {};
+  }
+  std::vector<uint32_t> list;
+  list.reserve(3 * (order.size() - 2));
+  for (size_t i = 0; i + 2 < order.size(); ++i) {
+    if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
+      list.insert(list.end(), {order[i], order[i + 1 + i % 2], order[i + 2 - i % 2]});
+    else
+      list.insert(list.end(), {order[i + 1], order[i + 2], order[0]});
+  }
+  return list;
+}
+
+std::vector<uint32_t> load_indices(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                                   size_t vertex_count, MeshTally& tally) {
+  std::vector<uint32_t> order;
+  if (primitive.indices < 0) {
+    order.resize(vertex_count);
+    std::iota(order.begin(), order.end(), 0u);
+  } else {
+    order = read_indices(model, primitive.indices);
+    const auto largest = std::max_element(order.begin(), order.end());
+    if (largest != order.end() && *largest >= vertex_count)
+      fail("index {} is out of range ({} vertices)", *largest, vertex_count);
+  }
+  return to_triangle_list(std::move(order), primitive.mode, tally);
+}
+
+/// base += sum of weight * target (glTF 2.0, section 3.7.2.2).
+void add_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                       std::span<const double> weights, const std::string& name, std::vector<glm::vec3>& base) {
+  for (size_t t = 0; t < std::min(weights.size(), primitive.targets.size()); ++t) {
+    const auto it = primitive.targets[t].find(name);
+    if (it == primitive.targets[t].end()) continue;
+    check_count(model, it->second, base.size(), fmt::format("{} of morph target {}", name, t));
+    if (weights[t] == 0.0) continue;
+    const std::vector<glm::vec3> target = read_vec3(model, it->second);
+    for (size_t i = 0; i < base.size(); ++i) base[i] += static_cast<float>(weights[t]) * target[i];
+  }
+}
+
+/// Linear blend skinning (glTF 2.0, section 3.7.3.3), summed over all JOINTS_n sets.
+void apply_skin(const tinygltf::Model& model, const tinygltf::Primitive& primitive, std::span<const glm::dmat4> joints,
+                Mesh& mesh) {
+  std::vector<glm::dmat4> sums(mesh.positions.size(), glm::dmat4(0.0));
+  std::vector<double> weight_sums(mesh.positions.size(), 0.0);
+  for (int set = 0;; ++set) {
+    const int joints_accessor = attribute(primitive, fmt::format("JOINTS_{}", set));
+    const int weights_accessor = attribute(primitive, fmt::format("WEIGHTS_{}", set));
+    if (joints_accessor < 0 || weights_accessor < 0) break;
+    check_count(model, joints_accessor, sums.size(), fmt::format("JOINTS_{}", set));
+    check_count(model, weights_accessor, sums.size(), fmt::format("WEIGHTS_{}", set));
+    const std::vector<glm::uvec4> ids = read_uvec4(model, joints_accessor);
+    const std::vector<glm::vec4> weights = read_vec4(model, weights_accessor);
+    for (size_t i = 0; i < sums.size(); ++i)
+      for (int k = 0; k < 4; ++k) {
+        const double weight = weights[i][k];
+        if (!std::isfinite(weight)) fail("the joint weight of vertex {} is not finite", i);
+        if (weight == 0.0) continue;
+        if (ids[i][k] >= joints.size())
+          fail("joint {} of vertex {} is out of range ({} joints)", ids[i][k], i, joints.size());
+        sums[i] += weight * joints[ids[i][k]];
+        weight_sums[i] += weight;
+      }
+  }
+  for (size_t i = 0; i < sums.size(); ++i) {
+    // A vertex without weights follows the first joint, so that it stays near the body.
+    const glm::dmat4 skin = weight_sums[i] > 0.0 ? sums[i] / weight_sums[i] : joints.front();
+    mesh.positions[i] = glm::vec3(skin * glm::dvec4(mesh.positions[i], 1.0));
+    if (mesh.normals.empty()) continue;
+    // The cofactor matrix: the inverse transpose without a division, so that flat joints do no harm.
+    const glm::dvec3 x(skin[0]), y(skin[1]), z(skin[2]);
+    const glm::dvec3 n(mesh.normals[i]);
+    const glm::dvec3 turned = glm::cross(y, z) * n.x + glm::cross(z, x) * n.y + glm::cross(x, y) * n.z;
+    mesh.normals[i] = glm::vec3(turned * (glm::determinant(glm::dmat3(skin)) < 0.0 ? -1.0 : 1.0));
+  }
+}
+
+/// Makes every normal unit length. Where that is impossible, the area-weighted normal of the vertex's
+/// triangles takes its place.
+void normalize_normals(Mesh& mesh, MeshTally& tally) {
+  std::vector<bool> bad;
+  for (size_t i = 0; i < mesh.normals.size(); ++i) {
+    const float length = glm::length(mesh.normals[i]);
+    if (length > 1e-20f && std::isfinite(length)) {
+      mesh.normals[i] /= length;
+      continue;
+    }
+    if (bad.empty()) bad.resize(mesh.normals.size());
+    bad[i] = true;
+    mesh.normals[i] = glm::vec3(0.0f);
+    ++tally.bad_normals;
+  }
+  if (bad.empty()) return;
+  std::vector<glm::dvec3> sums(mesh.normals.size(), glm::dvec3(0.0));
+  for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+    const uint32_t* v = &mesh.indices[t];
+    const glm::dvec3 a(mesh.positions[v[0]]), b(mesh.positions[v[1]]), c(mesh.positions[v[2]]);
+    for (int k = 0; k < 3; ++k)
+      if (bad[v[k]]) sums[v[k]] += glm::cross(b - a, c - a);
+  }
+  for (size_t i = 0; i < bad.size(); ++i) {
+    if (!bad[i]) continue;
+    const double length = glm::length(sums[i]);
+    mesh.normals[i] = length > 0.0 && std::isfinite(length) ? glm::vec3(sums[i] / length) : glm::vec3(0, 1, 0);
+  }
+}
+
+/// Files often share one large vertex array between many primitives: each keeps only the vertices that it
+/// uses.
+void drop_unused_vertices(Mesh& mesh) {
+  if (mesh.positions.size() <= mesh.indices.size()) return;
+  constexpr uint32_t unused = 0xffffffffu;
+  std::vector<uint32_t> new_index(mesh.positions.size(), unused);
+  Mesh kept;
+  for (uint32_t& index : mesh.indices) {
+    uint32_t& target = new_index[index];
+    if (target == unused) {
+      target = static_cast<uint32_t>(kept.positions.size());
+      kept.positions.push_back(mesh.positions[index]);
+      if (!mesh.normals.empty()) kept.normals.push_back(mesh.normals[index]);
+      if (!mesh.uvs.empty()) kept.uvs.push_back(mesh.uvs[index]);
+    }
+    index = target;
+  }
+  mesh.positions = std::move(kept.positions);
+  mesh.normals = std::move(kept.normals);
+  mesh.uvs = std::move(kept.uvs);
+}
+
+void check_positions(const Mesh& mesh) {
+  for (size_t i = 0; i < mesh.positions.size(); ++i)
+    if (!finite(mesh.positions[i])) fail("the position of vertex {} is not finite", i);
+}
+
+std::optional<Mesh> load_triangles(const tinygltf::Model& model, const PrimitiveSource& source,
+                                   const tinygltf::Primitive& primitive, MeshTally& tally) {
+  const int positions = attribute(primitive, "POSITION");
+  if (positions < 0) {
+    ++tally.without_positions;
+    return {};
+  }
+  const size_t vertex_count = accessor_count(model, positions);
+  if (vertex_count > 0xffffffffu) fail("it has more than 2^32 vertices");
+  for (const auto& [name, accessor] : primitive.attributes) check_count(model, accessor, vertex_count, name);
+
+  Mesh mesh;
+  mesh.positions = read_vec3(model, positions);
+  mesh.indices = load_indices(model, primitive, vertex_count, tally);
+  if (const int normals = attribute(primitive, "NORMAL"); normals >= 0) mesh.normals = read_vec3(model, normals);
+  if (const int set = base_color_uv_set(model, primitive.material); set >= 0)
+    if (const int uvs = attribute(primitive, fmt::format("TEXCOORD_{}", set)); uvs >= 0) {
+      mesh.uvs = read_vec2(model, uvs);
+      for (glm::vec2& uv : mesh.uvs)
+        if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) uv = glm::vec2(0.0f);
+    }
+
+  if (!primitive.targets.empty()) {
+    ++tally.morphed_primitives;
+    add_morph_targets(model, primitive, source.morph_weights, "POSITION", mesh.positions);
+    if (!mesh.normals.empty()) add_morph_targets(model, primitive, source.morph_weights, "NORMAL", mesh.normals);
+  }
+  if (!source.world_from_bind_joints.empty()) {
+    ++tally.skinned_primitives;
+    apply_skin(model, primitive, source.world_from_bind_joints, mesh);
+  }
+  check_positions(mesh);
+  if (mesh.indices.empty()) return {};
+  tally.colored_primitives += attribute(primitive, "COLOR_0") >= 0;
+  normalize_normals(mesh, tally);
+  drop_unused_vertices(mesh);
+  return mesh;
+}
+
+}  // namespace
+
+std::optional<Mesh> load_primitive(const tinygltf::Model& model, const PrimitiveSource& source, MeshTally& tally) {
+  const tinygltf::Mesh& gltf_mesh = model.meshes[static_cast<size_t>(source.mesh)];
+  const tinygltf::Primitive& primitive = gltf_mesh.primitives[static_cast<size_t>(source.primitive)];
+  const std::string name = gltf_mesh.name.empty() ? "" : fmt::format(" ('{}')", gltf_mesh.name);
+  switch (primitive.mode) {
+    case TINYGLTF_MODE_POINTS:
+      ++tally.point_primitives;
+      return {};
+    case TINYGLTF_MODE_LINE:
+    case TINYGLTF_MODE_LINE_LOOP:
+    case TINYGLTF_MODE_LINE_STRIP:
+      ++tally.line_primitives;
+      return {};
+    case TINYGLTF_MODE_TRIANGLES:
+    case TINYGLTF_MODE_TRIANGLE_STRIP:
+    case TINYGLTF_MODE_TRIANGLE_FAN:
+      break;
+    default:
+      fail("mesh {}{}, primitive {}: there is no primitive mode {}", source.mesh, name, source.primitive,
+           primitive.mode);
+  }
+  try {
+    std::optional<Mesh> mesh = load_triangles(model, source, primitive, tally);
+    if (mesh) {
+      mesh->name = gltf_mesh.name;
+      mesh->material =
+          static_cast<uint32_t>(primitive.material < 0 ? static_cast<int>(model.materials.size()) : primitive.material);
+    }
+    return mesh;
+  } catch (const Error& e) {
+    fail("mesh {}{}, primitive {}: {}", source.mesh, name, source.primitive, e.what());
+  }
+}
+
+void MeshTally::describe(std::vector<std::string>& ignored) const {
+  const auto say = [&](const char* what, size_t count, const char* consequence) {
+    if (count > 0) ignored.push_back(fmt::format("{}: {}, {}", what, count, consequence));
+  };
+  say("primitives made of points", point_primitives, "not shown");
+  say("primitives made of lines", line_primitives, "not shown");
+  say("primitives without positions", without_positions, "not shown");
+  say("vertices beyond the last whole triangle of their primitive", trailing_indices, "not used");
+  say("normals without a direction", bad_normals, "replaced by the normal of their triangles");
+  say("primitives with vertex colours", colored_primitives, "the colours are not shown");
+  say("skinned primitives", skinned_primitives, "standing in bind pose (their joints at rest)");
+  say("primitives with morph targets", morphed_primitives, "standing still with their default weights");
+}
+
+}  // namespace izb

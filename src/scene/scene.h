@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// A scene as plain data: no GL, no file format. World space is right-handed, y up, metres (glTF 2.0's convention).
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace izb {
+
+/// One indexed triangle list in object space. `normals` and `uvs` are empty or have one entry a position.
+struct Mesh {
+  std::string name;
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;  ///< unit length; empty: the triangle's own normal is used (flat)
+  std::vector<glm::vec2> uvs;      ///< texture coordinates that the base-colour texture reads
+  std::vector<uint32_t> indices;   ///< 3 a triangle, every index < positions.size()
+  uint32_t material = 0;
+
+  size_t triangle_count() const { return indices.size() / 3; }
+};
+
+/// One placement of a mesh.
+struct Instance {
+  uint32_t mesh = 0;
+  glm::dmat4 world_from_object{1.0};
+};
+
+enum class Wrap { repeat, mirrored_repeat, clamp_to_edge };
+
+/// An 8-bit RGBA image, sRGB colour and linear alpha, top row first.
+struct Texture {
+  std::string name;
+  int width_px = 0, height_px = 0;
+  std::vector<uint8_t> rgba;
+  Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+  bool nearest = false;
+};
+
+enum class AlphaMode { opaque, mask, blend };
+
+struct Material {
+  std::string name;
+  glm::vec4 base_color{1.0f};    ///< linear factor
+  int base_color_texture = -1;   ///< index into Scene::textures or -1
+  glm::mat3 uv_transform{1.0f};  ///< KHR_texture_transform, applied to (u, v, 1)
+  float metallic = 1.0f, roughness = 1.0f;
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  float alpha_cutoff = 0.5f;
+  bool double_sided = false;
+};
+
+enum class LightType { directional, spot, point };
+
+/// A punctual light (KHR_lights_punctual). `direction_ws` is the way its light travels.
+struct Light {
+  std::string name;
+  LightType type = LightType::directional;
+  glm::dvec3 position_ws{0.0};
+  glm::dvec3 direction_ws{0.0, -1.0, 0.0};  ///< unit length
+  glm::vec3 color{1.0f};                    ///< linear
+  float intensity = 1.0f;
+  double inner_cone_rad = 0.0;  ///< spot: half-angle
+  double outer_cone_rad = 0.7853981633974483;
+};
+
+/// A camera: looks along -z of its own space.
+struct Camera {
+  std::string name;
+  glm::dmat4 world_from_view{1.0};  ///< rigid: rotation and translation only
+  bool orthographic = false;
+  double yfov_rad = 0.8;  ///< perspective
+  double ymag = 1.0;      ///< orthographic: half the visible height, in world units
+  double near_plane = 0.01;
+  double far_plane = std::numeric_limits<double>::infinity();
+};
+
+struct Bounds {
+  glm::dvec3 min{std::numeric_limits<double>::infinity()};
+  glm::dvec3 max{-std::numeric_limits<double>::infinity()};
+  bool empty() const { return !(min.x <= max.x); }
+  void add(const glm::dvec3& p) { min = glm::min(min, p), max = glm::max(max, p); }
+  glm::dvec3 center() const { return 0.5 * (min + max); }
+  double radius() const { return empty() ? 0.0 : 0.5 * glm::length(max - min); }
+};
+
+struct Scene {
+  std::string name;  ///< stem of the file it came from
+  std::vector<Mesh> meshes;
+  std::vector<Instance> instances;
+  std::vector<Material> materials;  ///< never empty: meshes without one refer to a default material
+  std::vector<Texture> textures;
+  std::vector<Light> lights;
+  std::vector<Camera> cameras;
+  std::vector<std::string>
+      ignored;  ///< one sentence for each thing of the file that is not shown, or shown differently
+
+  size_t triangle_count() const {  ///< instances counted
+    size_t n = 0;
+    for (const Instance& i : instances) n += meshes[i.mesh].triangle_count();
+    return n;
+  }
+};
+
+}  // namespace izb

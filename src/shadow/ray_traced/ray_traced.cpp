@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/ray_traced/ray_traced.h"
+
+#include "frame/read_back.h"
+#include "frame/spine.h"
+#include "reference/embree.h"
+#include "shadow/ray_traced/receivers.h"
+
+namespace izb {
+namespace {
+
+class RayTraced final : public Technique {
+ public:
+  TechniqueInfo info() const override {
+    return {"ray_traced", "one shadow ray a sample by Embree on the CPU, at the points that the G-buffer holds",
+            "I. Wald, S. Woop, C. Benthin, G. Johnson, M. Ernst: Embree, SIGGRAPH 2014"};
+  }
+
+  OptionSet options() override {
+    OptionSet set;
+    set.choice("quality", quality_, {"low", "medium", "high"}, "build quality of the hierarchy");
+    set.flag("nl-cull", nl_cull_, "trace no rays for pixels with N.L <= 0");
+    return set;
+  }
+
+  std::string missing(const gpu::Capabilities&) const override {
+    return reference::embree_available() ? "" : "this build has no Embree";
+  }
+  GridRequest grid() const override { return {1, nl_cull_}; }
+  void resize(int, int) override {}
+
+  void render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) override {
+    const gpu::StageTimers::Scope scope(timers, name(Stage::visibility));
+    trace(in, out);
+  }
+
+  Counts count(const FrameInputs& in, Visibility& out) override { return {{"rays", trace(in, out)}}; }
+  Counts memory() const override { return {}; }
+  std::vector<gpu::ProgramSpec> program_specs() const override { return {}; }
+
+ private:
+  uint64_t trace(const FrameInputs& in, Visibility& out) const {
+    const auto quality = quality_ == "low"      ? reference::BuildQuality::low
+                         : quality_ == "medium" ? reference::BuildQuality::medium
+                                                : reference::BuildQuality::high;
+    const reference::RayTracer tracer({in.triangles_vs()}, quality);
+    const reference::Receivers receivers = make_receivers(read_gbuffer(*in.gbuffer), in);
+    const reference::MaskTrace traced = tracer.trace_mask(make_light_point(in.light), receivers);
+    const std::vector<uint32_t> bottom_first = flip_rows(traced.mask, in.width_px, in.height_px);
+    glTextureSubImage2D(out.mask.name(), 0, 0, 0, in.width_px, in.height_px, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                        bottom_first.data());
+    return traced.rays;
+  }
+
+  std::string quality_ = "medium";
+  bool nl_cull_ = true;
+};
+
+}  // namespace
+
+std::unique_ptr<Technique> make_ray_traced() {
+  return std::make_unique<RayTraced>();
+}
+
+}  // namespace izb

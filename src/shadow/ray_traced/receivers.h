@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// From a rendered G-buffer to what the ground truth works on.
+#pragma once
+#include "frame/frame_inputs.h"
+#include "frame/read_back.h"
+#include "reference/truth.h"
+
+namespace izb {
+
+/// The receiver points of a frame, one a pixel, top row first; each with the band of 1/64 pixel in which a bit may be
+/// explained.
+reference::Receivers make_receivers(const GBufferImage& image, const FrameInputs& in);
+
+reference::LightPoint make_light_point(const shared::LightFrame& light);
+
+}  // namespace izb

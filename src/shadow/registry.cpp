@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// One line a room.
+#include "base/error.h"
+#include "shadow/izb/izb.h"
+#include "shadow/ray_traced/ray_traced.h"
+#include "shadow/technique.h"
+
+namespace izb {
+namespace {
+
+struct Room {
+  const char* name;
+  std::unique_ptr<Technique> (*make)();
+};
+
+constexpr Room rooms[] = {
+    {"izb", make_izb},
+    {"ray_traced", make_ray_traced},
+};
+
+}  // namespace
+
+std::vector<std::string> technique_names() {
+  std::vector<std::string> names;
+  for (const Room& room : rooms) names.emplace_back(room.name);
+  return names;
+}
+
+std::unique_ptr<Technique> make_technique(const std::string& name) {
+  for (const Room& room : rooms)
+    if (name == room.name) return room.make();
+  throw UsageError(fmt::format("unknown technique '{}'", name));
+}
+
+}  // namespace izb

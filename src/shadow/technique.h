@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The door of a room: FrameInputs in, Visibility out. A technique's memory is its own members.
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/options.h"
+#include "frame/frame_inputs.h"
+#include "gpu/capabilities.h"
+#include "gpu/glsl_front_end.h"
+#include "gpu/timers.h"
+
+namespace izb {
+
+struct TechniqueInfo {
+  std::string name;      ///< as `--technique` takes it
+  std::string line;      ///< what it does, one line
+  std::string citation;  ///< the paper, or empty
+};
+
+/// Named counts of one frame, in order of display.
+using Counts = std::vector<std::pair<std::string, uint64_t>>;
+
+class Technique {
+ public:
+  virtual ~Technique() = default;
+  Technique() = default;
+  Technique(const Technique&) = delete;
+  Technique& operator=(const Technique&) = delete;
+
+  virtual TechniqueInfo info() const = 0;
+  /// Its options, bound to this object.
+  virtual OptionSet options() = 0;
+  /// What the driver lacks for it: one sentence, or empty.
+  virtual std::string missing(const gpu::Capabilities& capabilities) const = 0;
+  /// What it asks of the light-space grid that the bounds stage fits.
+  virtual GridRequest grid() const = 0;
+  /// Compiles and allocates for a size and the options' values. Throws izb::Error if the driver refuses.
+  virtual void resize(int width_px, int height_px) = 0;
+  /// Fills `out.mask`. Uniform blocks of camera and light, and the light's window, are bound.
+  virtual void render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) = 0;
+  /// Renders once more with counting on; out.mask is as after render().
+  virtual Counts count(const FrameInputs& in, Visibility& out) = 0;
+  /// GPU memory of its own, by name, in bytes; the mask is the frame's.
+  virtual Counts memory() const = 0;
+  /// Length of the list in which each pixel's node stands (bottom row first), or empty if it has no lists.
+  virtual std::vector<float> list_lengths() const { return {}; }
+  /// Every program that it can compile: the defaults and each option alone. Needs no GL.
+  virtual std::vector<gpu::ProgramSpec> program_specs() const = 0;
+};
+
+/// The names of all techniques.
+std::vector<std::string> technique_names();
+/// Throws izb::UsageError for an unknown name.
+std::unique_ptr<Technique> make_technique(const std::string& name);
+
+}  // namespace izb

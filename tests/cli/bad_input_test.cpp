@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+// Whatever is wrong with the input or the output: one sentence that names it, the exit code, and nothing left
+// behind.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "cli/run_program.h"
+#include "cli/small_scenes.h"
+#include "cpu/full_device.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace izb::test;
+
+struct BadInput : testing::Test {
+  const TemporaryFolder folder;
+  const fs::path output = folder / "output";
+  BadInput() {
+    fs::create_directory(output);
+    // The program may run with fewer rights than this test.
+    fs::permissions(output.parent_path(), fs::perms::all);
+    fs::permissions(output, fs::perms::all);
+  }
+
+  fs::path good() const { return write_file(folder / "good.glb", roof_over_floor().glb()); }
+
+  Outcome render(const fs::path& scene, std::vector<std::string> more = {}, const RunOptions& options = {}) const {
+    std::vector<std::string> words{"render",    scene,
+                                   "-o",        output / "frame.exr",
+                                   "--preview", output / "frame.png",
+                                   "--json",    output / "frame.json",
+                                   "--size",    "32x18"};
+    words.insert(words.end(), more.begin(), more.end());
+    return izb::test::izb(words, options);
+  }
+
+  /// One line on stderr that names the file and the cause; nothing else anywhere.
+  void expect_refused(const Outcome& outcome, const std::string& file, const std::string& cause, int code = 1) const {
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    const std::vector<std::string> lines = outcome.error_lines();
+    ASSERT_EQ(lines.size(), 1u) << outcome.err;
+    EXPECT_TRUE(lines[0].starts_with("izb: ")) << lines[0];
+    EXPECT_NE(lines[0].find(file), std::string::npos) << "no '" << file << "' in: " << lines[0];
+    EXPECT_NE(lines[0].find(cause), std::string::npos) << "no '" << cause << "' in: " << lines[0];
+    EXPECT_EQ(names_in(output), std::vector<std::string>{});
+  }
+
+  void expect_scene_refused(const std::string& name, const std::string& bytes, const std::string& cause) const {
+    const fs::path scene = write_file(folder / name, bytes);
+    expect_refused(render(scene), name, cause);
+    // The other commands read scenes by the same door.
+    expect_refused(izb::test::izb({"validate", scene, "--size", "32x18"}), name, cause);
+  }
+};
+
+// ---- the scene
+// ------------------------------------------------------------------------------------------------------
+
+TEST_F(BadInput, MissingFile) {
+  expect_refused(render(folder / "absent.glb"), "absent.glb", "no such file");
+}
+
+TEST_F(BadInput, Directory) {
+  expect_refused(render(output), "output", "directory");
+}
+
+TEST_F(BadInput, UnreadableFile) {
+  const fs::path scene = good();
+  fs::permissions(scene, fs::perms::none);
+  const RunOptions nobody{{}, true};
+  if (izb::test::izb({"--version"}, nobody).code != 0) GTEST_SKIP() << "another user may not run this build";
+  expect_refused(render(scene, {}, nobody), "good.glb", "Permission denied");
+}
+
+TEST_F(BadInput, EmptyFile) {
+  expect_scene_refused("empty.glb", "", "empty");
+  expect_scene_refused("empty.gltf", "", "empty");
+}
+
+TEST_F(BadInput, RandomBytes) {
+  std::string bytes;
+  uint32_t state = 1;
+  for (int i = 0; i < 5000; ++i) bytes += char((state = state * 1664525u + 1013904223u) >> 24);
+  expect_scene_refused("random.glb", bytes, "");
+  expect_scene_refused("random.gltf", bytes, "");
+}
+
+TEST_F(BadInput, TruncatedGlb) {
+  const std::string bytes = roof_over_floor().glb();
+  for (const size_t kept : {size_t(3), size_t(11), size_t(19), size_t(200), bytes.size() - 1})
+    expect_scene_refused("cut.glb", bytes.substr(0, kept), "");
+}
+
+TEST_F(BadInput, JsonThatIsNotGltf) {
+  expect_scene_refused("list.gltf", "[1, 2, 3]", "glTF");
+  expect_scene_refused("object.gltf", R"({"name": "something else"})", "");
+  expect_scene_refused("number.gltf", "17", "glTF");
+}
+
+TEST_F(BadInput, BufferTooShort) {
+  GltfWriter gltf = one_triangle();
+  gltf.root["accessors"][0]["count"] = 4;
+  expect_scene_refused("short.glb", gltf.glb(), "");
+  gltf = one_triangle();
+  gltf.root["buffers"] = {{{"byteLength", 1000000}}};
+  expect_scene_refused("shorter.glb", gltf.glb(), "");
+}
+
+TEST_F(BadInput, IndexOutOfRange) {
+  GltfWriter gltf;
+  const int positions = gltf.add_positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const int indices = gltf.add_array(std::vector<uint16_t>{0, 1, 3}, type_uint16, "SCALAR", 1);
+  gltf.add_root({{"mesh", gltf.add_mesh({{"attributes", {{"POSITION", positions}}}, {"indices", indices}})}});
+  expect_scene_refused("index.glb", gltf.glb(), "index");
+}
+
+TEST_F(BadInput, PositionsThatAreNotFinite) {
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    GltfWriter gltf;
+    const int positions = gltf.add_positions({0, 0, 0, 1, bad, 0, 0, 1, 0});
+    gltf.add_root({{"mesh", gltf.add_mesh({{"attributes", {{"POSITION", positions}}}})}});
+    expect_scene_refused("bad_position.glb", gltf.glb(), "finite");
+  }
+}
+
+TEST_F(BadInput, CyclicNodes) {
+  GltfWriter gltf = one_triangle();
+  gltf.append("nodes", {{"children", {2}}});
+  gltf.append("nodes", {{"children", {1}}});
+  gltf.root["scenes"][0]["nodes"] = {0, 1};
+  expect_scene_refused("cycle.glb", gltf.glb(), "");
+}
+
+TEST_F(BadInput, NoTriangle) {
+  for (const int mode : {0, 1, 3}) {  // points, lines, line strip
+    GltfWriter gltf = one_triangle();
+    gltf.root["meshes"][0]["primitives"][0]["mode"] = mode;
+    if (mode == 1) gltf.root["accessors"][1]["count"] = 2;
+    expect_scene_refused("lines.glb", gltf.glb(), "no triangle");
+  }
+  expect_scene_refused("nothing.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{}]})", "no triangle");
+}
+
+TEST_F(BadInput, AnExtensionThatIsRequiredAndUnknown) {
+  GltfWriter gltf = one_triangle();
+  gltf.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+  expect_scene_refused("draco.glb", gltf.glb(), "KHR_draco_mesh_compression");
+}
+
+TEST_F(BadInput, AbsentTextureIsAWarning) {
+  GltfWriter gltf = roof_over_floor();
+  gltf.root["images"] = {{{"uri", "absent.png"}}};
+  gltf.root["textures"] = {{{"source", 0}}};
+  gltf.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+  gltf.root["meshes"][0]["primitives"][0]["material"] = 0;
+  const Outcome outcome = render(write_file(folder / "textured.glb", gltf.glb()));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(outcome.says("absent.png")) << outcome.err;
+  EXPECT_EQ(names_in(output), (std::vector<std::string>{"frame.exr", "frame.json", "frame.png"}));
+}
+
+// ---- what is asked of it
+// --------------------------------------------------------------------------------------------
+
+TEST_F(BadInput, UnknownCameraOrLight) {
+  expect_refused(render(good(), {"--camera", "behind"}), "behind", "above");
+  expect_refused(render(good(), {"--camera", "7"}), "7", "camera");
+  expect_refused(render(good(), {"--light", "moon"}), "moon", "noon");
+}
+
+TEST_F(BadInput, UnknownViewpoint) {
+  expect_refused(render(good(), {"--viewpoint", "x", "--views", folder / "absent.json"}), "absent.json", "cannot read");
+  const fs::path views =
+      write_file(folder / "views.json", R"({"good": {"eye": [0, 8, 8], "target": [0, 0, 0], "fov": 45}})");
+  expect_refused(render(good(), {"--viewpoint", "better", "--views", views}), "views.json", "better");
+}
+
+TEST_F(BadInput, WrongUsage) {
+  const std::pair<std::vector<std::string>, const char*> cases[] = {
+      {{"--size", "0x18"}, "--size"},
+      {{"--size", "32"}, "--size"},
+      {{"--size", "32x-1"}, "--size"},
+      {{"--size", "99999999999x18"}, "--size"},
+      {{"--technique", "magic"}, "technique"},
+      {{"--context", "vulkan"}, "context"},
+      {{"--repeat", "0"}, "repeat"},
+      {{"--grid", "many"}, "grid"},
+      {{"--zcull", "maybe"}, "zcull"},
+      {{"--sun", "10"}, "--sun"},
+      {{"--sun", "10,100"}, "--sun"},
+      {{"--sun", "nan,10"}, "--sun"},
+      {{"--spot", "0,1,0,0,0,0,61"}, "--spot"},
+      {{"--eye", "0,1,2"}, "--target"},
+      {{"--eye", "0,1,2", "--target", "0,1,2"}, "differ"},
+      {{"--eye", "0,1,2", "--target", "0,0,0", "--camera", "above"}, "--camera"},
+      {{"--sun", "10,10", "--light", "noon"}, "--light"},
+      {{"--fov", "180"}, "fov"},
+      {{"--no-such-option"}, "--no-such-option"},
+      {{"one-word-too-many"}, "one-word-too-many"},
+  };
+  for (const auto& [words, named] : cases) {
+    const Outcome outcome = render(good(), words);
+    EXPECT_EQ(outcome.code, 2) << words[0] << ": " << outcome.err;
+    EXPECT_TRUE(outcome.says(named)) << words[0] << ": " << outcome.err;
+    EXPECT_EQ(names_in(output), std::vector<std::string>{}) << words[0];
+  }
+}
+
+TEST_F(BadInput, CommandsThatAreNotComplete) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{},
+                                                {"paint"},
+                                                {"render"},
+                                                {"render", "x.glb"},
+                                                {"validate"},
+                                                {"scene"},
+                                                {"scene", "moon"}}) {
+    const Outcome outcome = izb::test::izb(words);
+    EXPECT_EQ(outcome.code, 2) << testing::PrintToString(words) << outcome.err;
+    EXPECT_NE(outcome.err, "");
+    EXPECT_EQ(outcome.out, "");
+  }
+}
+
+TEST_F(BadInput, SizeBeyondTheDrivers) {
+  expect_refused(render(good(), {"--size", "1000000x18"}), "1000000x18", "pixels");
+}
+
+// ---- the output
+// -----------------------------------------------------------------------------------------------------
+
+TEST_F(BadInput, OutputInAMissingFolder) {
+  for (const char* option : {"-o", "--preview", "--json"}) {
+    const fs::path target = folder / "absent" / "file";
+    expect_refused(izb::test::izb({"render", good(), option, target}), target, "does not exist");
+  }
+}
+
+TEST_F(BadInput, OutputThatIsADirectory) {
+  expect_refused(izb::test::izb({"render", good(), "-o", output}), output, "directory");
+}
+
+TEST_F(BadInput, OutputThatMayNotBeWritten) {
+  const RunOptions nobody{{}, true};
+  if (izb::test::izb({"--version"}, nobody).code != 0) GTEST_SKIP() << "another user may not run this build";
+  const fs::path scene = good();
+  fs::permissions(output, fs::perms::owner_all | fs::perms::others_exec | fs::perms::others_read);
+  expect_refused(render(scene, {}, nobody), output / "frame", "Permission denied");
+}
+
+TEST_F(BadInput, FullDevice) {
+  const auto full = full_device(folder / ".");
+  if (!full) GTEST_SKIP() << "no full device";
+  const fs::path scene = good();
+  for (const char* option : {"-o", "--preview", "--json"}) {
+    const Outcome outcome = izb::test::izb({"render", scene, option, *full, "--size", "32x18"});
+    EXPECT_EQ(outcome.code, 1) << option;
+    EXPECT_TRUE(outcome.says(full->string())) << outcome.err;
+    EXPECT_TRUE(outcome.says("No space left on device")) << outcome.err;
+    EXPECT_TRUE(fs::is_character_file(*full));
+  }
+  const Outcome outcome = izb::test::izb({"scene", "garden", "-o", *full});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(outcome.says("No space left on device")) << outcome.err;
+}
+
+TEST_F(BadInput, AnOldOutputSurvivesAFailure) {
+  const fs::path old = write_file(output / "frame.exr", "old");
+  EXPECT_EQ(render(folder / "absent.glb").code, 1);
+  EXPECT_EQ(names_in(output), std::vector<std::string>{"frame.exr"});
+  EXPECT_EQ(fs::file_size(old), 3u);
+}
+
+// ---- the machine
+// ----------------------------------------------------------------------------------------------------
+
+TEST_F(BadInput, WithoutGl45EveryContextIsNamed) {
+  RunOptions old_gl{{{"MESA_GL_VERSION_OVERRIDE", "3.3"}, {"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}}, false};
+  const Outcome outcome = render(good(), {}, old_gl);
+  if (outcome.code == 0) GTEST_SKIP() << "this driver does not heed MESA_GL_VERSION_OVERRIDE";
+  expect_refused(outcome, "no OpenGL 4.5 context (egl: ", "osmesa: ");
+  EXPECT_TRUE(outcome.says("glfw: ")) << outcome.err;
+}
+
+TEST_F(BadInput, ShaderFilesThatAreNotThere) {
+  const Outcome outcome = render(good(), {}, {{{"IZB_GLSL", folder / "absent"}}, false});
+  expect_refused(outcome, (folder / "absent").string(), "shader");
+}
+
+}  // namespace

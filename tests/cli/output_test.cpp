@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+// What a run leaves behind, read by a program that is not ours where there is one.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "base/sha256.h"
+#include "cli/run_program.h"
+#include "cli/small_scenes.h"
+#include "image/exr.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace izb::test;
+
+nlohmann::json read_json(const fs::path& path) {
+  return nlohmann::json::parse(std::ifstream(path));
+}
+
+/// The text that oiiotool prints for `words`.
+std::string oiiotool(std::vector<std::string> words) {
+  words.insert(words.begin(), "oiiotool");
+  const Outcome outcome = run_program(words);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  return outcome.out;
+}
+
+bool have_oiiotool() {
+  return run_program({"oiiotool", "--version"}).code == 0;
+}
+
+struct Output : testing::Test {
+  const TemporaryFolder folder;
+  const fs::path scene = write_file(folder / "roof.glb", roof_over_floor().glb());
+  const fs::path exr = folder / "frame.exr", png = folder / "frame.png", json = folder / "frame.json";
+
+  Outcome render(std::vector<std::string> more = {}) const {
+    std::vector<std::string> words{"render", scene, "-o",     exr,     "--preview", png,
+                                   "--json", json,  "--size", "64x36", "--grid",    "256"};
+    words.insert(words.end(), more.begin(), more.end());
+    return izb::test::izb(words);
+  }
+};
+
+TEST_F(Output, IsReadByOiiotool) {
+  if (!have_oiiotool()) GTEST_SKIP() << "no oiiotool";
+  const Outcome outcome = render();
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string info = oiiotool({"--info", "-v", exr});
+  EXPECT_NE(info.find("64 x   36"), std::string::npos) << info;
+  for (const char* channel :
+       {"R", "G", "B", "visibility", "depth", "normal.X", "normal.Y", "normal.Z", "mask", "list_length"})
+    EXPECT_TRUE(std::regex_search(info, std::regex(std::string("channel list:.*\\b") + channel + "\\b")))
+        << channel << info;
+  EXPECT_TRUE(std::regex_search(info, std::regex("channel list:.*mask \\(uint\\)"))) << info;
+  for (const char* attribute : {"worldToCamera", "worldToNDC", "izb.command", "izb.version", "izb.gl", "izb.options",
+                                "izb.stages", "izb.mask_hash", "light.type", "light.direction"})
+    EXPECT_NE(info.find(attribute), std::string::npos) << attribute << "\n" << info;
+  EXPECT_NE(oiiotool({"--info", png}).find("64 x   36, 3 channel, uint8 png"), std::string::npos);
+  const std::string stats = oiiotool({exr, "--ch", "visibility,depth,normal.X,R", "--printstats"});
+  EXPECT_NE(stats.find("NanCount: 0 0 0 0"), std::string::npos) << stats;
+  EXPECT_NE(stats.find("InfCount: 0 0 0 0"), std::string::npos) << stats;
+  EXPECT_TRUE(std::regex_search(stats, std::regex("Stats Min: 0\\.0+ "))) << stats;  // something is shadowed
+  EXPECT_TRUE(std::regex_search(stats, std::regex("Stats Max: 1\\.0+ "))) << stats;  // something is lit
+}
+
+TEST_F(Output, MaskIsTheRoofsShadowAndTheHashIsOfIt) {
+  ASSERT_EQ(render().code, 0);
+  const izb::Image image = izb::read_exr(exr);
+  const std::vector<uint32_t>& mask = image.uints("mask");
+  const std::vector<float>&depth = image.floats("depth"), &visibility = image.floats("visibility");
+  EXPECT_EQ(izb::sha256_hex(std::as_bytes(std::span(mask))), read_json(json)["mask_hash"]);
+  size_t shadowed = 0;
+  for (size_t i = 0; i < mask.size(); ++i) {
+    EXPECT_TRUE(mask[i] == 0 || mask[i] == 0xffffffffu) << i;
+    EXPECT_EQ(visibility[i], mask[i] ? 0.0f : 1.0f) << i;
+    if (depth[i] == 0.0f) {
+      EXPECT_EQ(mask[i], 0u) << i;
+    }
+    shadowed += mask[i] != 0;
+  }
+  // The roof covers 2 x 2 of the floor, seen by 45 degrees from about 11 units: a part of it is hidden by the
+  // roof.
+  const double pixel = 11.3 * 2.0 * std::tan(0.45) / 36.0;
+  EXPECT_GT(shadowed, 0.3 * 4.0 * std::sqrt(0.5) / (pixel * pixel));
+  EXPECT_LT(shadowed, 1.2 * 4.0 * std::sqrt(0.5) / (pixel * pixel));
+}
+
+TEST_F(Output, WorldToNdcLeadsToThePixelsThatTheCameraSees) {
+  ASSERT_EQ(render().code, 0);
+  const izb::Image image = izb::read_exr(exr);
+  const auto& m = std::get<std::array<float, 16>>(image.attributes.at("worldToNDC"));
+  const auto ndc = [&](float x, float y, float z) {  // row vectors
+    std::array<float, 4> p{};
+    for (size_t c = 0; c < 4; ++c) p[c] = x * m[c] + y * m[4 + c] + z * m[8 + c] + m[12 + c];
+    return std::array<float, 2>{p[0] / p[3], p[1] / p[3]};
+  };
+  // The camera at (0, 8, 8) looks at the origin; what is nearer to it lies lower in the picture.
+  EXPECT_NEAR(ndc(0, 0, 0)[0], 0.5, 1e-5);
+  EXPECT_NEAR(ndc(0, 0, 0)[1], 0.5, 1e-5);
+  EXPECT_GT(ndc(0, 0, 1)[1], 0.5);
+  EXPECT_GT(ndc(1, 0, 0)[0], 0.5);
+}
+
+TEST_F(Output, JsonHasTheDocumentedKeys) {
+  ASSERT_EQ(render({"--repeat", "3"}).code, 0);
+  const nlohmann::json j = read_json(json);
+  for (const char* key :
+       {"stages", "counts", "memory_bytes", "gl", "options", "command", "version", "mask_hash", "timing", "frame_ms"})
+    EXPECT_TRUE(j.contains(key)) << key;
+  std::vector<std::string> stages;
+  for (const auto& stage : j["stages"]) {
+    stages.push_back(stage["name"]);
+    EXPECT_EQ(stage["samples"].size(), 3u);
+    EXPECT_GE(stage["gpu_ms"].get<double>(), 0.0);
+  }
+  EXPECT_EQ(stages, (std::vector<std::string>{"gbuffer", "bounds", "build", "zcull", "visibility", "shade"}));
+  for (const char* count : {"fragments", "fragments_after_zcull", "visibility_tests", "nodes", "longest_list"})
+    EXPECT_TRUE(j["counts"].contains(count)) << count;
+  EXPECT_TRUE(j["timing"] == "wall" || j["timing"] == "query");
+  EXPECT_EQ(j["options"]["grid"], 256);
+  EXPECT_NE(j["command"].get<std::string>().find("izb render "), std::string::npos);
+  EXPECT_EQ(j["mask_hash"].get<std::string>().size(), 64u);
+}
+
+TEST_F(Output, TechniquesWriteTheSameLayoutAndHereTheSameMask) {
+  ASSERT_EQ(render().code, 0);
+  const std::string hash = read_json(json)["mask_hash"];
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--zcull", "off"}, {"--grid", "1024"}, {"--context", "osmesa"}}) {
+    const Outcome outcome = render(words);
+    if (outcome.says("this build has no")) continue;
+    ASSERT_EQ(outcome.code, 0) << words[0] << outcome.err;
+    EXPECT_EQ(read_json(json)["mask_hash"], hash) << words[0];
+  }
+  std::vector<std::string> words{"render", scene,    "-o",    exr,           "--json",
+                                 json,     "--size", "64x36", "--technique", "ray_traced"};
+  const Outcome outcome = izb::test::izb(words);
+  if (outcome.says("Embree") && outcome.code == 1) GTEST_SKIP() << "this build has no Embree";
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const izb::Image image = izb::read_exr(exr);
+  for (const uint32_t word : image.uints("mask")) EXPECT_TRUE(word == 0 || word == 0xffffffffu);
+  EXPECT_EQ(read_json(json)["mask_hash"], hash);
+}
+
+TEST_F(Output, NothingInViewIsTheSkyWithAWarning) {
+  const Outcome outcome = render({"--eye", "0,5,0", "--target", "0,50,1"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(outcome.says("warning")) << outcome.err;
+  EXPECT_TRUE(outcome.says("in view")) << outcome.err;
+  const izb::Image image = izb::read_exr(exr);
+  for (const uint32_t word : image.uints("mask")) EXPECT_EQ(word, 0u);
+  for (const char* name : {"R", "G", "B", "depth"})
+    for (const float value : image.floats(name)) ASSERT_TRUE(std::isfinite(value)) << name;
+}
+
+TEST_F(Output, WhatIsMissingInTheSceneIsSaid) {
+  const fs::path bare = write_file(folder / "bare.glb", one_triangle().glb());
+  const Outcome outcome = izb::test::izb({"render", bare, "-o", exr, "--size", "32x18"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(outcome.says("no camera")) << outcome.err;
+  EXPECT_TRUE(outcome.says("light")) << outcome.err;
+}
+
+TEST_F(Output, ReportsGoToStdoutAndNoProgressToAFile) {
+  const Outcome outcome = render();
+  ASSERT_EQ(outcome.code, 0);
+  for (const char* text : {"gbuffer", "visibility", "frame.exr", "frame.png", "frame.json"})
+    EXPECT_TRUE(outcome.prints(text)) << text;
+  EXPECT_EQ(outcome.err.find('\r'), std::string::npos) << outcome.err;
+  EXPECT_EQ(names_in(folder / "."), (std::vector<std::string>{"frame.exr", "frame.json", "frame.png", "roof.glb"}));
+}
+
+TEST_F(Output, ValidateAgreesAndWritesItsNumbers) {
+  const Outcome outcome = izb::test::izb({"validate", scene, "--size", "64x36", "--json", json, "--heatmap", png});
+  if (outcome.says("Embree") && outcome.code == 1) GTEST_SKIP() << "this build has no Embree";
+  ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  const nlohmann::json j = read_json(json);
+  for (const char* key : {"pixels", "lit", "shadowed", "disputed", "explained", "unexplained", "leaks", "false_shadow"})
+    EXPECT_TRUE(j.contains(key)) << key;
+  EXPECT_EQ(j["pixels"], 64 * 36);
+  EXPECT_EQ(j["unexplained"], 0);
+  EXPECT_GT(j["shadowed"], 0);
+  EXPECT_GT(j["lit"], 0);
+  EXPECT_EQ(j["lit"].get<int>() + j["shadowed"].get<int>() + j["left_out"]["sky"].get<int>() +
+                j["left_out"]["culled"].get<int>() + j["left_out"]["outside_cone"].get<int>(),
+            64 * 36);
+  EXPECT_TRUE(outcome.prints("unexplained"));
+  if (have_oiiotool()) {
+    EXPECT_NE(oiiotool({"--info", png}).find("64 x   36"), std::string::npos);
+  }
+}
+
+TEST_F(Output, InfoTellsTheContextAndTheScene) {
+  const Outcome outcome = izb::test::izb({"info", scene});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* text : {"context egl", "renderer", "GL_MAX_TEXTURE_SIZE", "triangles", "4 placed", "above", "noon"})
+    EXPECT_TRUE(outcome.prints(text)) << text << "\n" << outcome.out;
+}
+
+TEST_F(Output, SceneWritesWhatTheProgramReads) {
+  const fs::path garden = folder / "garden.glb", again = folder / "again.glb";
+  ASSERT_EQ(izb::test::izb({"scene", "garden", "-o", garden}).code, 0);
+  ASSERT_EQ(izb::test::izb({"scene", "garden", "-o", again}).code, 0);
+  EXPECT_EQ(run_program({"cmp", garden, again}).code, 0) << "the same seed must give the same file";
+  const Outcome outcome = izb::test::izb({"info", garden});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(outcome.prints("sunset")) << outcome.out;
+}
+
+}  // namespace

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Small scenes made by code, rendered by the spine, and their masks by other means.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "frame/read_back.h"
+#include "gl/gl_test.h"
+#include "reference/embree.h"
+#include "reference/settle.h"
+#include "scene/view.h"
+#include "shadow/ray_traced/receivers.h"
+#include "shadow/renderer.h"
+#include "shared/occlusion.h"
+#include "shared_fixture.h"
+
+namespace izb::test {
+
+inline Scene empty_scene() {
+  Scene scene;
+  scene.name = "test";
+  scene.materials.emplace_back();
+  return scene;
+}
+
+/// Adds triangles, three positions each, as one mesh placed by `world_from_object`.
+inline void add_soup(Scene& scene, const std::vector<glm::vec3>& positions,
+                     const glm::dmat4& world_from_object = glm::dmat4(1.0)) {
+  Mesh mesh;
+  mesh.positions = positions;
+  for (uint32_t i = 0; i < positions.size(); ++i) mesh.indices.push_back(i);
+  scene.meshes.push_back(std::move(mesh));
+  scene.instances.push_back({static_cast<uint32_t>(scene.meshes.size() - 1), world_from_object});
+}
+
+inline std::vector<glm::vec3> rectangle(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
+  return {corner, corner + u, corner + u + v, corner, corner + u + v, corner + v};
+}
+
+/// A floor of side `size` at height 0, finely cut or as two triangles.
+inline std::vector<glm::vec3> floor_of(float size, int cuts = 1) {
+  std::vector<glm::vec3> all;
+  const float step = size / float(cuts);
+  for (int i = 0; i < cuts; ++i)
+    for (int k = 0; k < cuts; ++k) {
+      const auto part =
+          rectangle({-0.5f * size + step * float(i), 0.0f, -0.5f * size + step * float(k)}, {0, 0, step}, {step, 0, 0});
+      all.insert(all.end(), part.begin(), part.end());
+    }
+  return all;
+}
+
+/// One frame and everything read back, top row first.
+struct Frame {
+  std::vector<uint32_t> mask;
+  GBufferImage gbuffer;
+  FrameInputs inputs;
+  shared::LightWindow window;
+  std::vector<glm::vec3> triangles_vs;
+  reference::Receivers receivers;
+  reference::LightPoint light;
+  Counts counts;
+  std::vector<float> list_lengths;
+
+  uint64_t count(const std::string& name) const {
+    for (const auto& [key, value] : counts)
+      if (key == name) return value;
+    ADD_FAILURE() << "no count " << name;
+    return 0;
+  }
+};
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+inline Frame render_frame(const Scene& scene, const Camera& camera, const Light& light, int width_px, int height_px,
+                          const Settings& settings = {}, const std::string& technique_name = "izb") {
+  const std::unique_ptr<Technique> technique = make_technique(technique_name);
+  const OptionSet options = technique->options();
+  for (const auto& [name, value] : settings) {
+    bool known = false;
+    for (const Option& option : options.options())
+      if (option.name == name) option.set(value), known = true;
+    EXPECT_TRUE(known) << "no option " << name;
+  }
+  Renderer renderer(scene, capabilities());
+  renderer.prepare(*technique, width_px, height_px);
+  gpu::StageTimers timers(true);
+  renderer.render(camera, light, timers);
+  Frame frame;
+  frame.mask = read_mask(renderer.mask());
+  frame.inputs = renderer.inputs();
+  frame.window = renderer.bounds().read_window();
+  frame.gbuffer = read_gbuffer(*frame.inputs.gbuffer);
+  frame.triangles_vs = frame.inputs.triangles_vs();
+  frame.receivers = make_receivers(frame.gbuffer, frame.inputs);
+  frame.light = make_light_point(frame.inputs.light);
+  if (technique_name == "izb") frame.list_lengths = flip_rows(technique->list_lengths(), width_px, height_px);
+  frame.counts = renderer.count();
+  return frame;
+}
+
+/// The mask of all pairs of triangle and pixel: no grid, no raster, the same test function.
+inline std::vector<uint32_t> brute_force_mask(const Frame& frame) {
+  std::vector<uint32_t> mask(frame.mask.size(), 0u);
+  for (size_t i = 0; i < mask.size(); ++i) {
+    if (frame.receivers.classes[i] != reference::PixelClass::receiver) continue;
+    const float t = frame.gbuffer.eye_distance[i];
+    for (size_t k = 0; k < frame.triangles_vs.size() / 3 && mask[i] == 0u; ++k)
+      if (k != frame.receivers.own_triangle[i] &&
+          shared::occludes(frame.inputs.camera, frame.inputs.light, frame.triangles_vs[3 * k],
+                           frame.triangles_vs[3 * k + 1], frame.triangles_vs[3 * k + 2], frame.receivers.points_vs[i],
+                           t))
+        mask[i] = 0xffffffffu;
+  }
+  return mask;
+}
+
+inline size_t different(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {
+  EXPECT_EQ(a.size(), b.size());
+  size_t n = 0;
+  for (size_t i = 0; i < a.size(); ++i) n += a[i] != b[i];
+  return n;
+}
+
+inline size_t shadowed(const Frame& frame) {
+  return static_cast<size_t>(std::count(frame.mask.begin(), frame.mask.end(), 0xffffffffu));
+}
+
+inline size_t receivers(const Frame& frame) {
+  return static_cast<size_t>(
+      std::count(frame.receivers.classes.begin(), frame.receivers.classes.end(), reference::PixelClass::receiver));
+}
+
+/// Settles the mask against rays; expects no unexplained bit.
+inline reference::Settled expect_explained(const Frame& frame) {
+  const reference::Triangles triangles{frame.triangles_vs};
+  const reference::RayTracer tracer(triangles);
+  const reference::MaskTrace traced = tracer.trace_mask(frame.light, frame.receivers);
+  reference::Settled settled = reference::settle(triangles, frame.light, frame.receivers, frame.mask, traced.mask);
+  EXPECT_EQ(settled.unexplained, 0u);
+  return settled;
+}
+
+inline Light spot(const glm::dvec3& position_ws, const glm::dvec3& target_ws, double half_angle_deg) {
+  Light light;
+  light.type = LightType::spot;
+  light.position_ws = position_ws;
+  light.direction_ws = glm::normalize(target_ws - position_ws);
+  light.outer_cone_rad = glm::radians(half_angle_deg);
+  light.inner_cone_rad = 0.9 * light.outer_cone_rad;
+  return light;
+}
+
+}  // namespace izb::test

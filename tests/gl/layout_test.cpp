@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// Structs that C++ and GLSL share: the driver's view of every block of every program against offsetof.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "gpu/program.h"
+#include "shadow/renderer.h"
+#include "shared/bounds.h"
+#include "shared/pairs.h"
+
+namespace {
+
+using namespace izb::shared;
+
+struct Field {
+  GLint offset, type;
+  auto operator<=>(const Field&) const = default;
+};
+
+void PrintTo(const Field& field, std::ostream* out) {
+  *out << "offset " << field.offset << ", type 0x" << std::hex << field.type << std::dec;
+}
+
+struct Block {
+  size_t bytes;  ///< of the struct, or of one element of an array
+  bool array;    ///< an array without length
+  std::map<std::string, Field> fields;
+};
+
+template <typename T>
+constexpr GLint gl_type = 0;
+template <>
+constexpr GLint gl_type<vec4> = GL_FLOAT_VEC4;
+template <>
+constexpr GLint gl_type<uvec4> = GL_UNSIGNED_INT_VEC4;
+template <>
+constexpr GLint gl_type<mat4> = GL_FLOAT_MAT4;
+template <>
+constexpr GLint gl_type<uint> = GL_UNSIGNED_INT;
+
+#define FIELD(prefix, type, name)                                \
+  {                                                              \
+    prefix "." #name, {                                          \
+      GLint(offsetof(type, name)), gl_type<decltype(type::name)> \
+    }                                                            \
+  }
+
+const std::map<std::string, Block> blocks{
+    {"CameraBlock",
+     {sizeof(CameraFrame),
+      false,
+      {FIELD("camera", CameraFrame, clip_from_view), FIELD("camera", CameraFrame, pixel_ray),
+       FIELD("camera", CameraFrame, footprint), FIELD("camera", CameraFrame, size_px)}}},
+    {"LightBlock",
+     {sizeof(LightFrame),
+      false,
+      {FIELD("light", LightFrame, axis_x), FIELD("light", LightFrame, axis_y), FIELD("light", LightFrame, axis_z),
+       FIELD("light", LightFrame, origin), FIELD("light", LightFrame, to_light), FIELD("light", LightFrame, color),
+       FIELD("light", LightFrame, grid)}}},
+    {"ShadeBlock",
+     {sizeof(ShadeFrame),
+      false,
+      {FIELD("shade", ShadeFrame, up_vs), FIELD("shade", ShadeFrame, sky_horizon),
+       FIELD("shade", ShadeFrame, sky_zenith), FIELD("shade", ShadeFrame, ground), FIELD("shade", ShadeFrame, cone)}}},
+    {"WindowBlock",
+     {sizeof(LightWindow),
+      false,
+      {FIELD("window", LightWindow, window), FIELD("window", LightWindow, depth),
+       FIELD("window", LightWindow, guard)}}},
+    {"BoundsBlock",
+     {sizeof(ReceiverBounds),
+      false,
+      {FIELD("bounds", ReceiverBounds, low), FIELD("bounds", ReceiverBounds, high),
+       FIELD("bounds", ReceiverBounds, slack)}}},
+    {"CounterBlock",
+     {sizeof(Counters),
+      false,
+      {FIELD("counters", Counters, pairs), FIELD("counters", Counters, capacity),
+       FIELD("counters", Counters, fragments), FIELD("counters", Counters, visibility_tests),
+       FIELD("counters", Counters, triangles), FIELD("counters", Counters, unused0),
+       FIELD("counters", Counters, unused1), FIELD("counters", Counters, unused2)}}},
+    {"InstanceBlock",
+     {sizeof(InstanceFrame),
+      true,
+      {FIELD("instances[0]", InstanceFrame, row_x), FIELD("instances[0]", InstanceFrame, row_y),
+       FIELD("instances[0]", InstanceFrame, row_z), FIELD("instances[0]", InstanceFrame, info)}}},
+    {"MaterialBlock",
+     {sizeof(MaterialFrame),
+      true,
+      {FIELD("materials[0]", MaterialFrame, base_color), FIELD("materials[0]", MaterialFrame, uv_u),
+       FIELD("materials[0]", MaterialFrame, uv_v)}}},
+    {"PairBlock",
+     {sizeof(UnsurePair),
+      true,
+      {FIELD("pairs[0]", UnsurePair, node), FIELD("pairs[0]", UnsurePair, instance),
+       FIELD("pairs[0]", UnsurePair, triangle), FIELD("pairs[0]", UnsurePair, unused)}}},
+    {"PositionBlock", {sizeof(float), true, {{"positions[0]", {0, GL_FLOAT}}}}},
+    {"IndexBlock", {sizeof(uint), true, {{"indices[0]", {0, GL_UNSIGNED_INT}}}}},
+};
+
+GLint property(GLuint program, GLenum interface, GLuint index, GLenum name) {
+  GLint value = -1;
+  glGetProgramResourceiv(program, interface, index, 1, &name, 1, nullptr, &value);
+  return value;
+}
+
+std::string resource_name(GLuint program, GLenum interface, GLuint index) {
+  char text[128] = {};
+  glGetProgramResourceName(program, interface, index, sizeof text, nullptr, text);
+  return text;
+}
+
+GLuint resource_count(GLuint program, GLenum interface) {
+  GLint count = 0;
+  glGetProgramInterfaceiv(program, interface, GL_ACTIVE_RESOURCES, &count);
+  return static_cast<GLuint>(count);
+}
+
+/// Compares one interface of a program with the table; notes the fields that it met.
+void compare(GLuint program, bool storage, std::map<std::string, std::set<std::string>>& met) {
+  const GLenum block_interface = storage ? GL_SHADER_STORAGE_BLOCK : GL_UNIFORM_BLOCK;
+  const GLenum field_interface = storage ? GL_BUFFER_VARIABLE : GL_UNIFORM;
+  for (GLuint i = 0; i < resource_count(program, block_interface); ++i) {
+    const std::string name = resource_name(program, block_interface, i);
+    const auto block = blocks.find(name);
+    ASSERT_NE(block, blocks.end()) << "block " << name << " is not in the table of this test";
+    if (!block->second.array) {
+      EXPECT_EQ(size_t(property(program, block_interface, i, GL_BUFFER_DATA_SIZE)), block->second.bytes) << name;
+    }
+  }
+  for (GLuint i = 0; i < resource_count(program, field_interface); ++i) {
+    const GLint block_index = property(program, field_interface, i, GL_BLOCK_INDEX);
+    if (block_index < 0) continue;  // a sampler or image
+    const std::string block_name = resource_name(program, block_interface, static_cast<GLuint>(block_index));
+    const Block& block = blocks.at(block_name);
+    const std::string name = resource_name(program, field_interface, i);
+    const auto field = block.fields.find(name);
+    ASSERT_NE(field, block.fields.end()) << block_name << " has no " << name << " in C++";
+    const Field seen{property(program, field_interface, i, GL_OFFSET), property(program, field_interface, i, GL_TYPE)};
+    EXPECT_EQ(seen, field->second) << block_name << ": " << name;
+    if (block.array) {
+      const bool of_structs = name.find('.') != std::string::npos;
+      const GLenum stride = of_structs ? GL_TOP_LEVEL_ARRAY_STRIDE : GL_ARRAY_STRIDE;
+      EXPECT_EQ(size_t(property(program, field_interface, i, stride)), block.bytes) << block_name;
+    }
+    if (field->second.type == GL_FLOAT_MAT4) {
+      EXPECT_EQ(property(program, field_interface, i, GL_MATRIX_STRIDE), 16) << name;
+      EXPECT_EQ(property(program, field_interface, i, GL_IS_ROW_MAJOR), 0) << name;
+    }
+    met[block_name].insert(name);
+  }
+}
+
+TEST(Layout, DriverAndCompilerAgreeOnEveryField) {
+  std::map<std::string, std::set<std::string>> met;
+  for (const izb::gpu::ProgramSpec& spec : izb::Renderer::program_specs()) {
+    SCOPED_TRACE(spec.label);
+    const izb::gpu::Program program(spec);
+    compare(program.name(), false, met);
+    compare(program.name(), true, met);
+    if (HasFatalFailure()) return;
+  }
+  // Nothing of the table is left unseen.
+  for (const auto& [name, block] : blocks) EXPECT_EQ(met[name].size(), block.fields.size()) << name;
+}
+
+}  // namespace
