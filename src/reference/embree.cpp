@@ -171,6 +171,12 @@ class ShadowPacket {
   void flush() {
     alignas(64) int valid[packet];
     for (int lane = 0; lane < packet; ++lane) valid[lane] = lane < lanes_ ? -1 : 0;
+    // Without 16-wide instructions Embree looks at the rays of lanes that are off, too: empty ones.
+    for (int lane = lanes_; lane < packet; ++lane) {
+      ray_.org_x[lane] = ray_.org_x[0], ray_.org_y[lane] = ray_.org_y[0], ray_.org_z[lane] = ray_.org_z[0];
+      ray_.dir_x[lane] = ray_.dir_x[0], ray_.dir_y[lane] = ray_.dir_y[0], ray_.dir_z[lane] = ray_.dir_z[0];
+      ray_.tnear[lane] = infinity, ray_.tfar[lane] = -infinity, ray_.id[lane] = ray_.id[0];
+    }
     occluded(valid, scene_, ray_, query_);
     for (int lane = 0; lane < lanes_; ++lane)
       if (ray_.tfar[lane] < 0.0f) mask_[ray_.id[lane]] = 0xFFFFFFFFu;  // Embree: -infinity where occluded

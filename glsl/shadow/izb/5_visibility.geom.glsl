@@ -31,7 +31,8 @@ layout(binding = UNIT_PYRAMID) uniform usampler2D pyramid;
 bool behind_all(Footprint f) {
   vec2 size = f.box.zw - f.box.xy;
   float largest = max(size.x, size.y);
-  int k = largest <= 4.0 ? 0 : (largest <= 16.0 ? 1 : 2);
+  int k = 0;
+  for (float texels = 4.0; texels < largest && k < pyramid_levels - 1; texels *= 4.0) ++k;
   int log_texels = 2 * (k + 1);
   ivec2 last = ivec2(int(light.grid.x) - 1) >> log_texels;
   ivec2 origin = pyramid_origin(int(light.grid.x), k);
@@ -40,7 +41,7 @@ bool behind_all(Footprint f) {
   uint furthest = max(max(texelFetch(pyramid, low, 0).x, texelFetch(pyramid, high, 0).x),
                       max(texelFetch(pyramid, ivec2(low.x, high.y), 0).x, texelFetch(pyramid, ivec2(high.x, low.y), 0).x));
   float nearest = min(min(f.p0.z, f.p1.z), f.count == 4 ? min(f.p2.z, f.p3.z) : f.p2.z);
-  return largest <= 64.0 && max(nearest, 0.0) >= uintBitsToFloat(furthest);
+  return max(nearest, 0.0) >= uintBitsToFloat(furthest);
 }
 #endif
 

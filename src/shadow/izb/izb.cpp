@@ -137,7 +137,7 @@ void Izb::resize(int width_px, int height_px) {
   pyramid_ = gpu::Texture();
   if (pyramid_on()) {
     const int side = shared::pyramid_side(grid_, 0);
-    pyramid_ = gpu::Texture("izb z-cull pyramid", GL_R32UI, side + shared::pyramid_side(grid_, 1), side);
+    pyramid_ = gpu::Texture("izb z-cull pyramid", GL_R32UI, side + shared::pyramid_side(grid_, 1), shared::pyramid_height(grid_));
   }
   light_framebuffer_ =
       zcull_ ? gpu::Framebuffer("izb light space", {}, &depth_) : gpu::Framebuffer("izb light space", grid_, grid_);
