@@ -23,6 +23,7 @@ void Renderer::prepare(Technique& technique, int width_px, int height_px) {
   if (const std::string reason = technique.missing(capabilities_); !reason.empty())
     fail("technique '{}' cannot run: {}", technique.info().name, reason);
   technique_ = &technique;
+  inputs_.samples = technique.samples();
   gbuffer_.resize(width_px, height_px);
   shade_.resize(width_px, height_px);
   visibility_.mask = gpu::Texture("mask", GL_R32UI, width_px, height_px);

@@ -35,6 +35,8 @@ class Technique {
   virtual OptionSet options() = 0;
   /// What the driver lacks for it: one sentence, or empty.
   virtual std::string missing(const gpu::Capabilities& capabilities) const = 0;
+  /// Where its samples lie, from its options. Throws izb::Error if a pattern's file cannot be read.
+  virtual SamplePattern samples() const = 0;
   /// What it asks of the light-space grid that the bounds stage fits.
   virtual GridRequest grid() const = 0;
   /// Compiles and allocates for a size and the options' values. Throws izb::Error if the driver refuses.

@@ -37,7 +37,7 @@ class Izb final : public Technique {
 
   OptionSet options() override {
     OptionSet set;
-    set.choice("spp", spp_, {"1"}, "samples a pixel");
+    sampling_.declare(set);
     set.integer("grid", grid_, 16, 16384, "texels", "side of the light-space grid of lists (6.3)");
     set.flag("zcull", zcull_, "light-space culling prepass and early z (5.4)");
     set.flag("zcull-pyramid", zcull_pyramid_,
@@ -59,6 +59,7 @@ class Izb final : public Technique {
                                                  : "";
   }
 
+  SamplePattern samples() const override { return sampling_.samples(); }
   GridRequest grid() const override { return {grid_, nl_cull_}; }
 
   void resize(int width_px, int height_px) override;
@@ -75,7 +76,7 @@ class Izb final : public Technique {
   void visibility(const FrameInputs& in, Visibility& out, const gpu::Program& program, bool culled);
   shared::Counters visibility_counted(const FrameInputs& in, Visibility& out, const gpu::Program& program, bool culled);
 
-  std::string spp_ = "1";
+  SampleOptions sampling_{"1", "hammersley"};
   int grid_ = 2048;
   bool zcull_ = true, zcull_pyramid_ = true, nl_cull_ = true;
   int pair_capacity_ = 1 << 17;

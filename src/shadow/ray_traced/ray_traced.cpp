@@ -18,6 +18,7 @@ class RayTraced final : public Technique {
 
   OptionSet options() override {
     OptionSet set;
+    sampling_.declare(set);
     set.choice("quality", quality_, {"low", "medium", "high"}, "build quality of the hierarchy");
     set.flag("nl-cull", nl_cull_, "trace no rays for pixels with N.L <= 0");
     return set;
@@ -26,6 +27,7 @@ class RayTraced final : public Technique {
   std::string missing(const gpu::Capabilities&) const override {
     return reference::embree_available() ? "" : "this build has no Embree";
   }
+  SamplePattern samples() const override { return sampling_.samples(); }
   GridRequest grid() const override { return {1, nl_cull_}; }
   void resize(int, int) override {}
 
@@ -52,6 +54,7 @@ class RayTraced final : public Technique {
     return traced.rays;
   }
 
+  SampleOptions sampling_{"1", "hammersley"};
   std::string quality_ = "medium";
   bool nl_cull_ = true;
 };

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Where in a pixel the shadow samples lie. A pattern is data, the same for every technique.
+#pragma once
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "base/options.h"
+
+namespace izb {
+
+/// Sample s of a pixel is bit s of its mask word, except that a pattern of one sample fills the whole word.
+struct SamplePattern {
+  std::string name;
+  std::vector<glm::vec2> offsets_px;  ///< from the pixel's centre, x right, y up, each in [-1/2, 1/2]; 1 or 32 of them
+  int count() const { return static_cast<int>(offsets_px.size()); }
+};
+
+inline constexpr int samples_a_word = 32;
+
+/// The pixel's centre alone.
+SamplePattern center_sample();
+/// 32 points of the Halton sequence in bases 2 and 3, what the paper's authors used.
+SamplePattern halton_samples();
+/// 32 Hammersley points: a (0, 5, 2)-net in base 2, so that edges near an axis get even steps.
+SamplePattern hammersley_samples();
+/// 32 lines "x y", each in [-1/2, 1/2]; empty lines and what follows a # are skipped. Throws izb::Error that names the
+/// file and the line.
+SamplePattern read_samples(const std::string& path);
+
+/// The two options that every technique with sub-pixel samples has.
+struct SampleOptions {
+  std::string spp = "32";
+  std::string pattern = "hammersley";
+
+  /// Declares `spp` and `samples`.
+  void declare(OptionSet& set);
+  /// Throws izb::Error as read_samples does.
+  SamplePattern samples() const;
+};
+
+}  // namespace izb
