@@ -7,6 +7,7 @@
 #define BIND_CAMERA 0
 #define BIND_LIGHT 1
 #define BIND_SHADE 2
+#define BIND_SAMPLES 3
 
 // Storage blocks.
 #define BIND_INSTANCES 0
@@ -17,6 +18,8 @@
 #define BIND_WINDOW 5
 #define BIND_COUNTERS 6
 #define BIND_PAIRS 7
+#define BIND_CASCADES 8
+#define BIND_POOL 9
 
 // Texture units.
 #define UNIT_BASE_COLOR 0
@@ -30,6 +33,8 @@
 #define UNIT_FURTHEST 8
 #define UNIT_MASK 9
 #define UNIT_PYRAMID 10
+#define UNIT_MICRO_QUAD 11
+#define UNIT_TABLE 12
 
 // Image units.
 #define IMAGE_EYE_DISTANCE 0
@@ -40,6 +45,7 @@
 #define IMAGE_MASK 5
 #define IMAGE_PICTURE 6
 #define IMAGE_PYRAMID 7
+#define IMAGE_MICRO_QUAD 2
 
 // Vertex attributes.
 #define ATTRIBUTE_POSITION 0

@@ -12,6 +12,33 @@ struct ReceiverBounds {
   uvec4 slack;  // largest uv_error, largest d_error, number of receivers; cleared to 0
 };
 
+// The visible depth range and where it is cut (5.2).
+struct CascadeRange {
+  uvec4 reached;  // x: bits of the nearest receiver's eye distance, cleared to ~0; y: of the furthest, cleared to 0
+  vec4 ends[2];   // eye distance at which each cascade but the last ends
+};
+
+// Logarithmic split (Lauritzen et al. 2011): equal ratios.
+SHARED void split_cascades(OUT(CascadeRange) range, int cascades) {
+  float nearest = uintBitsToFloat(range.reached.x);
+  float furthest = uintBitsToFloat(range.reached.y);
+  for (int i = 0; i < max_cascades; ++i) {
+    float end = 3.0e38f;
+    if (i < cascades - 1 && range.reached.y != 0u)
+      end = nearest * pow(furthest / nearest, float(i + 1) / float(cascades));
+    range.ends[i / 4][i % 4] = end;
+  }
+}
+
+// The cascade of a pixel is that of its centre, micro-quad and all; each window holds all corners of its micro-quads, so
+// that nothing leaks at a border.
+SHARED int cascade_of(IN(CascadeRange) range, int cascades, float t) {
+  int cascade = 0;
+  for (int i = 0; i < cascades - 1; ++i)
+    if (t > range.ends[i / 4][i % 4]) cascade = i + 1;
+  return cascade;
+}
+
 SHARED uint ordered_from_float(float f) {
   uint bits = floatBitsToUint(f);
   return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;

@@ -16,7 +16,7 @@
 #define SHARED_END }
 #else
 #define IN(T) in T
-#define OUT(T) out T
+#define OUT(T) inout T
 #define SHARED
 #define PRECISE precise
 #define SHARED_BEGIN

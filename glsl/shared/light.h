@@ -13,8 +13,10 @@ struct LightFrame {
   vec4 origin;    // xyz: position of a spot light, 0 for a directional one; w: 1 positional, 0 directional
   vec4 to_light;  // directional: unit vector towards the light; w: cosine of the spot's half-angle
   vec4 color;     // linear; w: 1 if pixels with N.L <= 0 stay out of the IZB (6.5)
-  uvec4 grid;     // x: texels along one side of the light-space grid
+  uvec4 grid;     // x: texels along one side of the light-space grid, y: cascades, z: samples a pixel
 };
+
+const int max_cascades = 8;
 
 // What the bounds stage finds: the tight window over the receivers, one a cascade.
 struct LightWindow {

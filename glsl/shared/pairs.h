@@ -11,9 +11,9 @@ struct Counters {
   uint fragments;         // light-space fragments that the visibility shader ran for (counting variant only)
   uint visibility_tests;  // triangle-pixel tests (counting variant only)
   uint triangles;         // triangles that the geometry shader let through (counting variant only)
-  uint unused0;
-  uint unused1;
-  uint unused2;
+  uint removed;           // nodes of fully shadowed pixels that were unlinked (counting variant only)
+  uint unchanged;         // masks that already had the bits (counting variant only)
+  uint unused;
 };
 
 struct UnsurePair {

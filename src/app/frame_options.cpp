@@ -122,6 +122,9 @@ OptionSet FrameOptions::options() {
   set.text("viewpoint", viewpoint, "NAME", "a named view of the views file: camera and light");
   set.text("views", views, "FILE", "the views file");
   set.choice("technique", technique, technique_names(), "the shadow technique; its own options are listed below");
+  set.text(
+      "preset", preset, "NAME",
+      "the technique's options as a whole, others on the command line still count: izb has paper (table 1) and exact");
   set.choice("context", context, gpu::context_names(), "how to get an OpenGL 4.5 context");
   return set;
 }

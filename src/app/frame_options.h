@@ -20,6 +20,7 @@ struct FrameOptions {
   std::string viewpoint;
   std::string views = "bench/views.json";
   std::string technique = "izb";
+  std::string preset;
   std::string context = "auto";
 
   /// Declares them; `technique` and `context` choices come from the registries.

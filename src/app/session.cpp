@@ -9,16 +9,28 @@
 
 namespace izb {
 
+namespace {
+
+/// The value of `--name VALUE` or `--name=VALUE`, the last one given.
+std::string value_of(const std::vector<std::string>& arguments, const std::string& name) {
+  std::string value;
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] == "--" + name && i + 1 < arguments.size()) value = arguments[i + 1];
+    if (arguments[i].starts_with("--" + name + "=")) value = arguments[i].substr(name.size() + 3);
+  }
+  return value;
+}
+
+}  // namespace
+
 std::unique_ptr<Technique> technique_of(const std::vector<std::string>& arguments) {
   const std::vector<std::string> names = technique_names();
-  std::string name = names.front();
-  for (size_t i = 0; i < arguments.size(); ++i) {
-    if (arguments[i] == "--technique" && i + 1 < arguments.size()) name = arguments[i + 1];
-    if (arguments[i].starts_with("--technique=")) name = arguments[i].substr(12);
-  }
+  const std::string name = value_of(arguments, "technique"), preset = value_of(arguments, "preset");
   // An unknown name is refused by the option itself, with the list of names.
   const bool known = std::find(names.begin(), names.end(), name) != names.end();
-  return make_technique(known ? name : names.front());
+  std::unique_ptr<Technique> technique = make_technique(known ? name : names.front());
+  if (!preset.empty()) technique->apply_preset(preset);
+  return technique;
 }
 
 Gl::Gl(const std::string& context_name)

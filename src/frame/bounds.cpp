@@ -14,29 +14,55 @@ constexpr int groups = 256;  // persistent threads: enough to fill a GPU, few en
 }  // namespace
 
 std::vector<gpu::ProgramSpec> BoundsStage::program_specs() {
-  return {{"bounds", {"frame/2_bounds.comp.glsl"}, {}}, {"bounds window", {"frame/2_bounds_window.comp.glsl"}, {}}};
+  return {{"bounds", {"frame/2_bounds.comp.glsl"}, {}},
+          {"bounds", {"frame/2_bounds.comp.glsl"}, {{"MICRO_QUAD", "1"}}},
+          {"bounds window", {"frame/2_bounds_window.comp.glsl"}, {}},
+          {"bounds range", {"frame/2_bounds_range.comp.glsl"}, {}},
+          {"bounds split", {"frame/2_bounds_split.comp.glsl"}, {}}};
 }
 
 BoundsStage::BoundsStage()
-    : reduce_(program_specs()[0]),
-      window_program_(program_specs()[1]),
-      bounds_("receiver bounds", sizeof(shared::ReceiverBounds)),
-      window_("light window", sizeof(shared::LightWindow)) {}
+    : window_program_(program_specs()[2]),
+      range_program_(program_specs()[3]),
+      split_program_(program_specs()[4]),
+      bounds_("receiver bounds", sizeof(shared::ReceiverBounds) * shared::max_cascades),
+      windows_("light windows", sizeof(shared::LightWindow) * shared::max_cascades),
+      cascades_buffer_("cascades", sizeof(shared::CascadeRange)) {}
+
+void BoundsStage::prepare(bool micro_quads, int cascades) {
+  reduce_ = gpu::Program(program_specs()[micro_quads ? 1 : 0]);
+  cascades_ = cascades;
+}
 
 void BoundsStage::render(gpu::StageTimers& timers) {
   const gpu::StageTimers::Scope scope(timers, name(Stage::bounds));
-  const shared::ReceiverBounds empty{glm::uvec4(~0u), glm::uvec4(0u), glm::uvec4(0u)};
-  bounds_.update(0, sizeof empty, &empty);
+  const std::vector<shared::ReceiverBounds> empty(shared::max_cascades,
+                                                  {glm::uvec4(~0u), glm::uvec4(0u), glm::uvec4(0u)});
+  bounds_.update(0, bounds_.bytes(), empty.data());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_BOUNDS, bounds_.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_WINDOW, window_.name());
-  reduce_.dispatch(threads_a_group * groups, 1, threads_a_group, 1);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_WINDOW, windows_.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_CASCADES, cascades_buffer_.name());
+  if (cascades_ > 1) {
+    shared::CascadeRange fresh{};
+    fresh.reached.x = ~0u;
+    cascades_buffer_.update(0, sizeof fresh, &fresh);
+    range_program_.dispatch(threads_a_group * groups, 1, threads_a_group, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    split_program_.dispatch(1, 1, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+  reduce_.dispatch(threads_a_group * groups, 1, threads_a_group, 1, cascades_);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   window_program_.dispatch(1, 1, 1, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-shared::LightWindow BoundsStage::read_window() const {
-  return window_.read<shared::LightWindow>(1)[0];
+shared::LightWindow BoundsStage::read_window(int cascade) const {
+  return windows_.read<shared::LightWindow>(shared::max_cascades)[static_cast<size_t>(cascade)];
+}
+
+shared::CascadeRange BoundsStage::read_cascades() const {
+  return cascades_buffer_.read<shared::CascadeRange>(1)[0];
 }
 
 }  // namespace izb

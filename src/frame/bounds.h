@@ -3,22 +3,27 @@
 #pragma once
 #include "gpu/program.h"
 #include "gpu/timers.h"
-#include "shared/light.h"
+#include "shared/bounds.h"
 
 namespace izb {
 
 class BoundsStage {
  public:
   BoundsStage();
-  /// Camera and light uniform blocks and the G-buffer's textures are bound. Leaves the window bound as BIND_WINDOW.
+  /// micro_quads: the windows hold the pixels' micro-quads, not only their centres.
+  void prepare(bool micro_quads, int cascades);
+  /// Camera and light uniform blocks and the G-buffer's textures are bound. Leaves the windows bound as BIND_WINDOW and
+  /// the cascades' ends as BIND_CASCADES.
   void render(gpu::StageTimers& timers);
-  /// Reads the window back; for checks and debug views only.
-  shared::LightWindow read_window() const;
+  /// Reads a cascade's window back; for checks and debug views only.
+  shared::LightWindow read_window(int cascade = 0) const;
+  shared::CascadeRange read_cascades() const;
   static std::vector<gpu::ProgramSpec> program_specs();
 
  private:
-  gpu::Program reduce_, window_program_;
-  gpu::Buffer bounds_, window_;
+  gpu::Program reduce_, window_program_, range_program_, split_program_;
+  gpu::Buffer bounds_, windows_, cascades_buffer_;
+  int cascades_ = 1;
 };
 
 }  // namespace izb

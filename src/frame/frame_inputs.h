@@ -13,7 +13,7 @@ struct FrameInputs {
   int width_px = 0, height_px = 0;
   shared::CameraFrame camera;
   shared::LightFrame light;
-  SamplePattern samples;  ///< where in a pixel the shadow samples lie
+  SamplePattern samples;             ///< where in a pixel the shadow samples lie
   const GBuffer* gbuffer = nullptr;  ///< its textures are bound to their units
   /// Draws every triangle of the scene once: attributes position and instance, storage block of instances bound.
   std::function<void()> draw_casters;

@@ -69,7 +69,7 @@ shared::LightFrame make_light_frame(const Camera& camera, const Light& light, co
   frame.to_light =
       glm::vec4(-glm::vec3(frame.axis_z), positional ? static_cast<float>(std::cos(light.outer_cone_rad)) : -1.0f);
   frame.color = glm::vec4(light.color, grid.nl_cull ? 1.0f : 0.0f);
-  frame.grid = glm::uvec4(grid.texels, 0, 0, 0);
+  frame.grid = glm::uvec4(grid.texels, grid.cascades, 0, 0);
   return frame;
 }
 
@@ -94,6 +94,14 @@ std::vector<shared::MaterialFrame> make_materials(const Scene& scene) {
     frames.push_back({m.base_color, glm::vec4(rows[0], 0.0f), glm::vec4(rows[1], 0.0f)});
   }
   return frames;
+}
+
+shared::SampleFrame make_sample_frame(const SamplePattern& samples, const GridRequest& grid) {
+  shared::SampleFrame frame{};
+  for (size_t i = 0; i < samples.offsets_px.size(); ++i)
+    frame.offset_px[i] = glm::vec4(samples.offsets_px[i], 0.0f, 0.0f);
+  frame.info = glm::uvec4(samples.count(), grid.table_side, 0, 0);
+  return frame;
 }
 
 shared::ShadeFrame make_shade_frame(const Camera& camera, const Light& light) {

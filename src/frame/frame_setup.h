@@ -4,9 +4,11 @@
 #include <vector>
 
 #include "frame/draw_list.h"
+#include "frame/samples.h"
 #include "scene/scene.h"
 #include "shared/gbuffer.h"
 #include "shared/light.h"
+#include "shared/micro_quad.h"
 #include "shared/shade.h"
 
 namespace izb {
@@ -15,6 +17,8 @@ namespace izb {
 struct GridRequest {
   int texels = 1;       ///< along one side
   bool nl_cull = true;  ///< leave pixels with N.L <= 0 out of the IZB (6.5)
+  int cascades = 1;     ///< one grid each (6.4), 1 to 8
+  int table_side = 0;   ///< of the visibility look-up table; 0: none
 };
 
 shared::CameraFrame make_camera_frame(const Camera& camera, int width_px, int height_px);
@@ -25,6 +29,8 @@ shared::LightFrame make_light_frame(const Camera& camera, const Light& light, co
 std::vector<shared::InstanceFrame> make_instance_frames(const Camera& camera, const Scene& scene, const DrawList& list);
 
 std::vector<shared::MaterialFrame> make_materials(const Scene& scene);
+
+shared::SampleFrame make_sample_frame(const SamplePattern& samples, const GridRequest& grid);
 
 shared::ShadeFrame make_shade_frame(const Camera& camera, const Light& light);
 

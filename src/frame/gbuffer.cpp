@@ -6,12 +6,13 @@
 
 namespace izb {
 
-GBuffer::GBuffer(int width_px, int height_px)
+GBuffer::GBuffer(int width_px, int height_px, bool micro_quads)
     : depth("depth", GL_DEPTH_COMPONENT32F, width_px, height_px),
       id("id", GL_RG32UI, width_px, height_px),
       eye_distance("eye distance", GL_R32F, width_px, height_px),
       normal("normal", GL_RG32F, width_px, height_px),
       shading_normal("shading normal", GL_RG16, width_px, height_px),
+      micro_quad(micro_quads ? gpu::Texture("micro-quads", GL_RGBA32F, width_px, height_px) : gpu::Texture()),
       albedo("albedo", GL_SRGB8_ALPHA8, width_px, height_px) {}
 
 void GBuffer::bind() const {
@@ -19,22 +20,26 @@ void GBuffer::bind() const {
   glBindTextureUnit(UNIT_EYE_DISTANCE, eye_distance.name());
   glBindTextureUnit(UNIT_NORMAL, normal.name());
   glBindTextureUnit(UNIT_SHADING_NORMAL, shading_normal.name());
+  if (micro_quad) glBindTextureUnit(UNIT_MICRO_QUAD, micro_quad.name());
   glBindTextureUnit(UNIT_ALBEDO, albedo.name());
 }
 
 size_t GBuffer::bytes() const {
-  return depth.bytes() + id.bytes() + eye_distance.bytes() + normal.bytes() + shading_normal.bytes() + albedo.bytes();
+  return depth.bytes() + id.bytes() + eye_distance.bytes() + normal.bytes() + shading_normal.bytes() +
+         micro_quad.bytes() + albedo.bytes();
 }
 
 std::vector<gpu::ProgramSpec> GBufferStage::program_specs() {
   return {{"gbuffer", {"frame/1_gbuffer.vert.glsl", "frame/1_gbuffer.frag.glsl"}, {}},
-          {"gbuffer resolve", {"frame/1_gbuffer_resolve.comp.glsl"}, {}}};
+          {"gbuffer resolve", {"frame/1_gbuffer_resolve.comp.glsl"}, {}},
+          {"gbuffer resolve", {"frame/1_gbuffer_resolve.comp.glsl"}, {{"MICRO_QUAD", "1"}}}};
 }
 
-GBufferStage::GBufferStage() : draw_(program_specs()[0]), resolve_(program_specs()[1]) {}
+GBufferStage::GBufferStage() : draw_(program_specs()[0]) {}
 
-void GBufferStage::resize(int width_px, int height_px) {
-  gbuffer_ = GBuffer(width_px, height_px);
+void GBufferStage::resize(int width_px, int height_px, bool micro_quads) {
+  resolve_ = gpu::Program(program_specs()[micro_quads ? 2 : 1]);
+  gbuffer_ = GBuffer(width_px, height_px, micro_quads);
   framebuffer_ =
       gpu::Framebuffer("gbuffer", {&gbuffer_.id, &gbuffer_.albedo, &gbuffer_.shading_normal}, &gbuffer_.depth);
 }
@@ -63,6 +68,8 @@ void GBufferStage::render(const SceneBuffers& scene, gpu::StageTimers& timers) {
   gbuffer_.bind();
   glBindImageTexture(IMAGE_EYE_DISTANCE, gbuffer_.eye_distance.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
   glBindImageTexture(IMAGE_NORMAL, gbuffer_.normal.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32F);
+  if (gbuffer_.micro_quad)
+    glBindImageTexture(IMAGE_MICRO_QUAD, gbuffer_.micro_quad.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
   resolve_.dispatch(width_px, height_px, 16, 16);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }

@@ -14,10 +14,11 @@ struct GBuffer {
   gpu::Texture eye_distance;    ///< R32F: t of shared::receiver_point; 0: sky
   gpu::Texture normal;          ///< RG32F: geometric normal on the viewer's side, octahedral, view space
   gpu::Texture shading_normal;  ///< RG16: octahedral in [0, 1], view space
+  gpu::Texture micro_quad;      ///< RGBA32F, with several samples a pixel only: shared::micro_quad_data
   gpu::Texture albedo;          ///< sRGB8; alpha 1 with a shading normal, 1/2 without
 
   GBuffer() = default;
-  GBuffer(int width_px, int height_px);
+  GBuffer(int width_px, int height_px, bool micro_quads);
   /// Binds the textures to the units that the later stages read.
   void bind() const;
   size_t bytes() const;
@@ -26,7 +27,8 @@ struct GBuffer {
 class GBufferStage {
  public:
   GBufferStage();
-  void resize(int width_px, int height_px);
+  /// micro_quads: also find each pixel's micro-quad.
+  void resize(int width_px, int height_px, bool micro_quads);
   /// Draws the scene and finds every pixel's receiver point. The camera's uniform block is bound.
   void render(const SceneBuffers& scene, gpu::StageTimers& timers);
   const GBuffer& gbuffer() const { return gbuffer_; }

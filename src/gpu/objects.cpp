@@ -66,16 +66,38 @@ void Buffer::read_bytes(size_t offset_bytes, size_t size_bytes, void* data) cons
 Texture::Texture(const std::string& text, GLenum format, int width_px, int height_px, int levels)
     : format_(format), width_px_(width_px), height_px_(height_px) {
   glCreateTextures(GL_TEXTURE_2D, 1, &name_);
-  label(GL_TEXTURE, name_, text);
   glTextureStorage2D(name_, levels, format, width_px, height_px);
+  finish(text, levels);
+}
+
+Texture Texture::array(const std::string& text, GLenum format, int width_px, int height_px, int layers) {
+  Texture t;
+  t.format_ = format, t.width_px_ = width_px, t.height_px_ = height_px, t.layers_ = layers;
+  glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &t.name_);
+  glTextureStorage3D(t.name_, 1, format, width_px, height_px, layers);
+  t.finish(text, 1);
+  return t;
+}
+
+void Texture::finish(const std::string& text, int levels) {
+  label(GL_TEXTURE, name_, text);
   if (const GLenum error = glGetError(); error != GL_NO_ERROR)
-    fail("the GL driver refused texture '{}' of {} x {} (error {:#x})", text, width_px, height_px, error);
+    fail("the GL driver refused texture '{}' of {} x {} x {} (error {:#x})", text, width_px_, height_px_, layers_,
+         error);
   for (int level = 0; level < levels; ++level)
-    bytes_ += bytes_a_texel(format) * std::max(1, width_px >> level) * std::max(1, height_px >> level);
+    bytes_ +=
+        bytes_a_texel(format_) * std::max(1, width_px_ >> level) * std::max(1, height_px_ >> level) * size_t(layers_);
   glTextureParameteri(name_, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(name_, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTextureParameteri(name_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTextureParameteri(name_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+BufferTexture::BufferTexture(const std::string& text, const std::vector<uint32_t>& words) : buffer_(text, words) {
+  glCreateTextures(GL_TEXTURE_BUFFER, 1, &name_);
+  glTextureBuffer(name_, GL_R32UI, buffer_.name());
+  label(GL_TEXTURE, name_, text);
+  bytes_ = buffer_.bytes();
 }
 
 void Texture::clear(GLenum format, GLenum type, const void* value) {
@@ -110,11 +132,22 @@ Framebuffer::Framebuffer(const std::string& text, const std::vector<const Textur
   check(text);
 }
 
-Framebuffer::Framebuffer(const std::string& text, int width_px, int height_px) {
+Framebuffer::Framebuffer(const std::string& text, int width_px, int height_px, int layers) {
   create(text);
   glNamedFramebufferParameteri(name_, GL_FRAMEBUFFER_DEFAULT_WIDTH, width_px);
   glNamedFramebufferParameteri(name_, GL_FRAMEBUFFER_DEFAULT_HEIGHT, height_px);
+  if (layers > 1) glNamedFramebufferParameteri(name_, GL_FRAMEBUFFER_DEFAULT_LAYERS, layers);
   check(text);
+}
+
+Framebuffer Framebuffer::depth_layer(const std::string& text, const Texture& depth, int layer) {
+  Framebuffer f;
+  f.create(text);
+  glNamedFramebufferTextureLayer(f.name_, GL_DEPTH_ATTACHMENT, depth.name(), 0, layer);
+  const GLenum none = GL_NONE;
+  glNamedFramebufferDrawBuffers(f.name_, 1, &none);
+  f.check(text);
+  return f;
 }
 
 VertexArray::VertexArray(const std::string& text) {

@@ -77,15 +77,18 @@ class Texture : public Object<TextureTraits> {
   Texture() = default;
   /// Immutable 2D storage; nearest filter and clamped edges, since most of ours are read by texelFetch.
   Texture(const std::string& label, GLenum format, int width_px, int height_px, int levels = 1);
+  /// An array of `layers` such textures, also of one.
+  static Texture array(const std::string& label, GLenum format, int width_px, int height_px, int layers);
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
+  int layers() const { return layers_; }
   GLenum format() const { return format_; }
   void clear(GLenum format, GLenum type, const void* value);
   void clear_uint(uint32_t value) { clear(GL_RED_INTEGER, GL_UNSIGNED_INT, &value); }
-  /// Level 0, bottom row first, tightly packed.
+  /// Level 0, all layers, bottom row first, tightly packed.
   template <typename T>
   std::vector<T> read(GLenum format, GLenum type, int components) const {
-    std::vector<T> data(size_t(width_px_) * height_px_ * components);
+    std::vector<T> data(size_t(width_px_) * height_px_ * layers_ * components);
     read_bytes(format, type, data.size() * sizeof(T), data.data());
     return data;
   }
@@ -93,8 +96,20 @@ class Texture : public Object<TextureTraits> {
   void read_bytes(GLenum format, GLenum type, size_t bytes, void* data) const;
 
  private:
+  void finish(const std::string& label, int levels);
+
   GLenum format_ = 0;
-  int width_px_ = 0, height_px_ = 0;
+  int width_px_ = 0, height_px_ = 0, layers_ = 1;
+};
+
+/// A buffer of 32-bit words that shaders fetch as a texture.
+class BufferTexture : public Object<TextureTraits> {
+ public:
+  BufferTexture() = default;
+  BufferTexture(const std::string& label, const std::vector<uint32_t>& words);
+
+ private:
+  Buffer buffer_;
 };
 
 class Framebuffer : public Object<FramebufferTraits> {
@@ -102,8 +117,10 @@ class Framebuffer : public Object<FramebufferTraits> {
   Framebuffer() = default;
   /// Colour attachments in order, then depth (either may be absent). Throws if the driver finds it incomplete.
   Framebuffer(const std::string& label, const std::vector<const Texture*>& colors, const Texture* depth);
-  /// Without an attachment: drawing into it has side effects only.
-  Framebuffer(const std::string& label, int width_px, int height_px);
+  /// Without an attachment: drawing into it has side effects only. Several layers are chosen by gl_Layer.
+  Framebuffer(const std::string& label, int width_px, int height_px, int layers = 1);
+  /// One layer of a depth texture array.
+  static Framebuffer depth_layer(const std::string& label, const Texture& depth, int layer);
 
  private:
   void create(const std::string& label);

@@ -57,10 +57,10 @@ Program::Program(const ProgramSpec& spec) {
   }
 }
 
-void Program::dispatch(int width, int height, int group_w, int group_h) const {
+void Program::dispatch(int width, int height, int group_w, int group_h, int layers) const {
   use();
   glDispatchCompute(static_cast<GLuint>((width + group_w - 1) / group_w),
-                    static_cast<GLuint>((height + group_h - 1) / group_h), 1);
+                    static_cast<GLuint>((height + group_h - 1) / group_h), static_cast<GLuint>(layers));
 }
 
 }  // namespace izb::gpu

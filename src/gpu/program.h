@@ -17,8 +17,9 @@ class Program : public Object<ProgramTraits> {
   explicit Program(const ProgramSpec& spec);
 
   void use() const { glUseProgram(name_); }
-  /// Uses the program and runs it over at least `width` x `height` invocations in groups of group_w x group_h.
-  void dispatch(int width, int height, int group_w, int group_h) const;
+  /// Uses the program and runs it over at least `width` x `height` invocations in groups of group_w x group_h, `layers`
+  /// times (gl_WorkGroupID.z).
+  void dispatch(int width, int height, int group_w, int group_h, int layers = 1) const;
 };
 
 }  // namespace izb::gpu

@@ -20,6 +20,10 @@ constexpr Room rooms[] = {
 
 }  // namespace
 
+void Technique::apply_preset(const std::string& name) {
+  throw UsageError(fmt::format("technique '{}' has no preset '{}'", info().name, name));
+}
+
 std::vector<std::string> technique_names() {
   std::vector<std::string> names;
   for (const Room& room : rooms) names.emplace_back(room.name);

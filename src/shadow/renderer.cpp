@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "shared/bindings.h"
+#include "shared/lists.h"
 
 namespace izb {
 
@@ -12,19 +13,23 @@ Renderer::Renderer(const Scene& scene, const gpu::Capabilities& capabilities)
       buffers_(scene, make_draw_list(scene), capabilities),
       camera_block_("camera", BIND_CAMERA),
       light_block_("light", BIND_LIGHT),
-      shade_block_("shade", BIND_SHADE) {
+      shade_block_("shade", BIND_SHADE),
+      samples_block_("samples", BIND_SAMPLES) {
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
 }
 
 void Renderer::prepare(Technique& technique, int width_px, int height_px) {
-  const int64_t largest = std::min<int64_t>(capabilities_.max_texture_size, 65535);
+  const int64_t largest = std::min<int64_t>(capabilities_.max_texture_size, shared::largest_picture_px);
   if (width_px < 1 || height_px < 1 || width_px > largest || height_px > largest)
     fail("size {}x{} is outside what this GL driver takes, 1 to {} pixels a side", width_px, height_px, largest);
   if (const std::string reason = technique.missing(capabilities_); !reason.empty())
     fail("technique '{}' cannot run: {}", technique.info().name, reason);
   technique_ = &technique;
   inputs_.samples = technique.samples();
-  gbuffer_.resize(width_px, height_px);
+  const bool micro_quads = inputs_.samples.count() > 1;
+  gbuffer_.resize(width_px, height_px, micro_quads);
+  bounds_.prepare(micro_quads, technique.grid().cascades);
+  samples_block_.set(make_sample_frame(inputs_.samples, technique.grid()));
   shade_.resize(width_px, height_px);
   visibility_.mask = gpu::Texture("mask", GL_R32UI, width_px, height_px);
   technique.resize(width_px, height_px);
@@ -51,6 +56,7 @@ void Renderer::render(const Camera& camera, const Light& light, gpu::StageTimers
   camera_block_.bind();
   light_block_.bind();
   shade_block_.bind();
+  samples_block_.bind();
 
   gbuffer_.render(buffers_, timers);
   bounds_.render(timers);

@@ -46,6 +46,7 @@ class Renderer {
   UniformBlock<shared::CameraFrame> camera_block_;
   UniformBlock<shared::LightFrame> light_block_;
   UniformBlock<shared::ShadeFrame> shade_block_;
+  UniformBlock<shared::SampleFrame> samples_block_;
   Visibility visibility_;
   FrameInputs inputs_;
   std::vector<shared::InstanceFrame> instances_;

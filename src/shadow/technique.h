@@ -33,6 +33,10 @@ class Technique {
   virtual TechniqueInfo info() const = 0;
   /// Its options, bound to this object.
   virtual OptionSet options() = 0;
+  /// Names of whole settings, and what sets one: before options() is asked for, so that its values are the defaults
+  /// there. Throws izb::UsageError for an unknown name.
+  virtual std::vector<std::string> presets() const { return {}; }
+  virtual void apply_preset(const std::string& name);
   /// What the driver lacks for it: one sentence, or empty.
   virtual std::string missing(const gpu::Capabilities& capabilities) const = 0;
   /// Where its samples lie, from its options. Throws izb::Error if a pattern's file cannot be read.
@@ -47,8 +51,10 @@ class Technique {
   virtual Counts count(const FrameInputs& in, Visibility& out) = 0;
   /// GPU memory of its own, by name, in bytes; the mask is the frame's.
   virtual Counts memory() const = 0;
-  /// Length of the list in which each pixel's node stands (bottom row first), or empty if it has no lists.
+  /// Length of the longest list in which each pixel stands (bottom row first), or empty if it has no lists.
   virtual std::vector<float> list_lengths() const { return {}; }
+  /// Entry n: how many lists have n nodes; empty if it has no lists.
+  virtual std::vector<uint64_t> list_histogram() const { return {}; }
   /// Every program that it can compile: the defaults and each option alone. Needs no GL.
   virtual std::vector<gpu::ProgramSpec> program_specs() const = 0;
 };

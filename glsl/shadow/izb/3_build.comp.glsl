@@ -1,21 +1,114 @@
 #version 450 core
 // 5.3 Creating the irregular z-buffer: each receiver goes into the list of its light-space texel. Nodes stand in a
-// preallocated screen-space grid, so that a node's address is its pixel and a node needs nothing but a next pointer (6.2);
-// the receiver's eye distance stands beside it, since a walk that reads one reads the other.
+// preallocated screen-space grid, so that a node's address is its pixel and slot and a node needs nothing but a next pointer
+// (6.2); at one sample a pixel the receiver's eye distance stands beside it, since a walk that reads one reads the other.
+// Defines: ZCULL; MICRO_QUAD, and then how it is inserted (6.1): ALONG_AXIS, BY_VIEW, BY_SAMPLES, or POOL (every texel that
+// it touches; COUNT_NODES only counts them).
 #include "shared/bindings.h"
-#include "shared/bounds.h"
+#include "shared/insertion.h"
 #include "shared/lists.h"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
 layout(std140, binding = BIND_CAMERA) uniform CameraBlock { CameraFrame camera; };
 layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
-layout(std430, binding = BIND_WINDOW) readonly buffer WindowBlock { LightWindow window; };
+layout(std430, binding = BIND_WINDOW) readonly buffer WindowBlock { LightWindow windows[max_cascades]; };
+layout(std430, binding = BIND_CASCADES) readonly buffer CascadeBlock { CascadeRange range; };
 layout(binding = UNIT_EYE_DISTANCE) uniform sampler2D eye_distance_texture;
 layout(binding = UNIT_NORMAL) uniform sampler2D normal_texture;
-layout(binding = IMAGE_HEADS, r32ui) uniform uimage2D heads;
+layout(binding = IMAGE_HEADS, r32ui) uniform uimage2DArray heads;
+layout(binding = IMAGE_FURTHEST, r32ui) uniform uimage2DArray furthest;
+#ifdef MICRO_QUAD
+layout(std140, binding = BIND_SAMPLES) uniform SampleBlock { SampleFrame samples; };
+layout(binding = UNIT_MICRO_QUAD) uniform sampler2D micro_quad_texture;
+layout(location = 0) uniform int most_nodes;
+#endif
+#ifdef POOL
+layout(std430, binding = BIND_POOL) buffer PoolBlock { uint pool_nodes; };
 layout(binding = IMAGE_NODES, rg32ui) writeonly uniform uimage2D nodes;
-layout(binding = IMAGE_FURTHEST, r32ui) uniform uimage2D furthest;
+#elif defined(MICRO_QUAD)
+layout(binding = IMAGE_NODES, r32ui) writeonly uniform uimage2DArray nodes;
+#else
+layout(binding = IMAGE_NODES, rg32ui) writeonly uniform uimage2D nodes;
+#endif
+
+void raise_furthest(ivec3 texel, float depth) {
+#ifdef ZCULL
+  imageAtomicMax(furthest, texel, floatBitsToUint(depth));
+#endif
+}
+
+uint push(ivec3 texel, uint node, float depth) {
+  raise_furthest(texel, depth);
+  return imageAtomicExchange(heads, texel, node);
+}
+
+#ifdef POOL
+void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
+  QuadOnGrid on_grid = project_quad(light, window, quad);
+  int last = int(light.grid.x) - 1;
+  float guard = window.guard.x + 0.001;
+  ivec2 rows = quad_rows(on_grid, guard, last);
+  uint count = 0u;
+  for (int y = rows.x; y <= rows.y; ++y) {
+    ivec2 columns = quad_columns(on_grid, guard, last, y);
+    count += uint(max(columns.y - columns.x + 1, 0));
+  }
+  uint node = atomicAdd(pool_nodes, count) + 1u;
+#ifndef COUNT_NODES
+  for (int y = rows.x; y <= rows.y; ++y) {
+    ivec2 columns = quad_columns(on_grid, guard, last, y);
+    for (int x = columns.x; x <= columns.y; ++x) {
+      uint next = push(ivec3(x, y, cascade), node, on_grid.deepest);
+      imageStore(nodes, pool_texel(node), uvec4(next, node_from_pixel(px, 0), 0u, 0u));
+      ++node;
+    }
+  }
+#endif
+}
+#elif defined(MICRO_QUAD)
+void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
+  QuadOnGrid on_grid = project_quad(light, window, quad);
+#ifdef BY_SAMPLES
+  int count = 32;
+#else
+  float texels;
+  vec2 axis = longest_axis(on_grid, texels);
+#ifdef BY_VIEW
+  // The footprint is 1 / N.V times as long as wide, along the slope of the tangent plane.
+  vec3 normal = normalize(octahedral_direction(texelFetch(normal_texture, px, 0).xy));
+  vec3 view = is_perspective(camera) ? normalize(quad.center) : vec3(0.0, 0.0, -1.0);
+  texels = 1.0 / max(abs(dot(normal, view)), 0.0001);
+  vec2 steep = texelFetch(micro_quad_texture, px, 0).yz;
+  float most = max(abs(steep.x), abs(steep.y));
+  axis = most > 0.0 ? steep * (0.5 / most) : vec2(0.5, 0.0);
+#endif
+  int count = clamp(int(ceil(texels)), 1, most_nodes);
+#endif
+  int slot = 0;
+  ivec2 last = ivec2(-1);
+  for (int i = 0; i < count && slot < most_nodes; ++i) {
+#ifdef BY_SAMPLES
+    vec2 o = samples.offset_px[i].xy;
+#else
+    vec2 o = axis * ((2.0 * float(i) + 1.0) / float(count) - 1.0);
+#endif
+    ivec2 texel = grid_texel(light, grid_position(window, micro_quad_uvd(light, quad, o)));
+    bool known = texel == last;
+#ifdef BY_SAMPLES
+    for (int k = 0; k < i; ++k)
+      if (texel == grid_texel(light, grid_position(window, micro_quad_uvd(light, quad, samples.offset_px[k].xy))))
+        known = true;
+#endif
+    if (known) continue;
+    last = texel;
+    uint next = push(ivec3(texel, cascade), node_from_pixel(px, slot), on_grid.deepest);
+    imageStore(nodes, ivec3(px, slot), uvec4(next));
+    ++slot;
+  }
+  for (; slot < most_nodes; ++slot) imageStore(nodes, ivec3(px, slot), uvec4(not_a_node(class_receiver)));
+}
+#endif
 
 void main() {
   ivec2 px = ivec2(gl_GlobalInvocationID.xy);
@@ -25,15 +118,23 @@ void main() {
   vec3 normal = octahedral_direction(texelFetch(normal_texture, px, 0).xy);
   uint pixel_class = t > 0.0 ? receiver_class(light, p, normal) : class_sky;
   if (pixel_class != class_receiver) {
+#ifndef POOL
+#ifdef MICRO_QUAD
+    for (int slot = 0; slot < most_nodes; ++slot) imageStore(nodes, ivec3(px, slot), uvec4(not_a_node(pixel_class)));
+#else
     imageStore(nodes, px, uvec4(not_a_node(pixel_class)));
+#endif
+#endif
     return;
   }
 
+  int cascade = cascade_of(range, int(light.grid.y), t);
+  LightWindow window = windows[cascade];
+#ifdef MICRO_QUAD
+  insert_quad(px, cascade, window, make_micro_quad(camera, px, texelFetch(micro_quad_texture, px, 0)));
+#else
   vec3 grid = grid_position(window, light_uvd(light, light_position(light, p)));
-  ivec2 texel = grid_texel(light, grid);
-  uint next = imageAtomicExchange(heads, texel, node_from_pixel(px));
+  uint next = push(ivec3(grid_texel(light, grid), cascade), node_from_pixel(px, 0), grid.z + window.depth.z);
   imageStore(nodes, px, uvec4(next, floatBitsToUint(t), 0u, 0u));
-#ifdef ZCULL
-  imageAtomicMax(furthest, texel, floatBitsToUint(grid.z + window.depth.z));
 #endif
 }

@@ -8,12 +8,13 @@
 layout(local_size_x = 16, local_size_y = 16) in;
 
 layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
-layout(binding = IMAGE_FURTHEST, r32ui) readonly uniform uimage2D furthest;
-layout(binding = IMAGE_PYRAMID, r32ui) uniform uimage2D pyramid;
+layout(binding = IMAGE_FURTHEST, r32ui) readonly uniform uimage2DArray furthest;
+layout(binding = IMAGE_PYRAMID, r32ui) uniform uimage2DArray pyramid;
 layout(location = 0) uniform int level;
 
 void main() {
   int side = int(light.grid.x);
+  int cascade = int(gl_WorkGroupID.z);
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(at, ivec2(pyramid_side(side, level))))) return;
   ivec2 last = ivec2(level == 0 ? side : pyramid_side(side, level - 1)) - 1;
@@ -22,10 +23,10 @@ void main() {
     for (int x = 0; x < 4; ++x) {
       ivec2 below = min(at * 4 + ivec2(x, y), last);
 #ifdef FIRST_LEVEL
-      deepest = max(deepest, imageLoad(furthest, below).x);
+      deepest = max(deepest, imageLoad(furthest, ivec3(below, cascade)).x);
 #else
-      deepest = max(deepest, imageLoad(pyramid, pyramid_origin(side, level - 1) + below).x);
+      deepest = max(deepest, imageLoad(pyramid, ivec3(pyramid_origin(side, level - 1) + below, cascade)).x);
 #endif
     }
-  imageStore(pyramid, pyramid_origin(side, level) + at, uvec4(deepest));
+  imageStore(pyramid, ivec3(pyramid_origin(side, level) + at, cascade), uvec4(deepest));
 }

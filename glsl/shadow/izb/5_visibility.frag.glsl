@@ -1,22 +1,23 @@
 #version 450 core
 // 5.5 Each fragment walks its texel's list, tests each listed pixel against the triangle, and adds shadow to its mask.
-// Defines: COUNT counts fragments and tests; IN_DOUBLE decides every pair in double (when the list of unsure pairs
-// overflowed); ZCULL needs early tests, or culled fragments would still have their side effects.
+// Defines, beside those of receivers.glsl and coverage.glsl: CASCADES: several layers; PIPELINE: fetch one node ahead (6.8);
+// COUNT: count fragments and tests; IN_DOUBLE: decide unsure pairs here (when their list overflowed).
 #include "shared/bindings.h"
-#include "shared/lists.h"
 #include "shared/occlusion.h"
 #include "shared/pairs.h"
+#include "shadow/izb/receivers.glsl"
+#ifdef SPP32
+#include "shadow/izb/coverage.glsl"
+#endif
 
+// Without it fragments that z-cull rejects would still have their side effects.
 layout(early_fragment_tests) in;
 
 layout(std140, binding = BIND_CAMERA) uniform CameraBlock { CameraFrame camera; };
 layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
 layout(std430, binding = BIND_COUNTERS) buffer CounterBlock { Counters counters; };
 layout(std430, binding = BIND_PAIRS) writeonly buffer PairBlock { UnsurePair pairs[]; };
-layout(binding = UNIT_HEADS) uniform usampler2D heads;
-layout(binding = UNIT_NODES) uniform usampler2D nodes;
 layout(binding = UNIT_ID) uniform usampler2D id_texture;
-layout(binding = IMAGE_MASK, r32ui) writeonly uniform uimage2D mask;
 
 layout(location = 0) flat in vec3 g_a;
 layout(location = 1) flat in vec3 g_b;
@@ -24,52 +25,108 @@ layout(location = 2) flat in vec3 g_c;
 layout(location = 3) flat in vec4 g_box;
 layout(location = 4) flat in uvec2 g_id;
 
-void add_pair(uint node) {
+#ifdef SPP32
+#define Triangle QuadTriangle
+#define make_triangle make_quad_triangle
+#else
+#define Triangle TrianglePlanes
+#define make_triangle make_planes
+#endif
+
+void add_pair(ivec2 px) {
   uint i = atomicAdd(counters.pairs, 1u);
-  if (i < counters.capacity) pairs[i] = UnsurePair(node, g_id.x - 1u, g_id.y, 0u);
+  if (i < counters.capacity) pairs[i] = UnsurePair(node_from_pixel(px, 0), g_id.x - 1u, g_id.y, 0u);
 }
 
-// Tests the pixels of a list from `node` on; stops at the end, or after a pair that single precision cannot decide.
-// Returns that pair's node.
-uint walk(CameraFrame eye, TrianglePlanes planes, inout uint node, inout uint tests) {
-  uint unsure = no_node;
-  while (node != no_node && unsure == no_node) {
-    uint current = node;
-    ivec2 px = pixel_from_node(current);
-    uvec2 data = texelFetch(nodes, px, 0).xy;
-    node = data.x;
-    float t = uintBitsToFloat(data.y);
-    vec3 p = receiver_point(eye, vec2(px) + 0.5, t);
-    ++tests;
+// The mask bits of one pair.
+uint test(CameraFrame eye, Triangle triangle, Receiver r, out bool unsure) {
+#ifdef SPP32
+  uint bits = classify_quad(eye, triangle, make_micro_quad(eye, r.px, r.data), unsure);
 #ifdef IN_DOUBLE
-    int answer = occludes(eye, light, g_a, g_b, g_c, p, t) ? pair_in : pair_out;
-#else
-    int answer = classify(eye, planes, p, t);
+  if (unsure) bits = occluded_bits(quad_planes(eye, light, g_a, g_b, g_c, r.px, r.data));
 #endif
-    if (answer == pair_in) imageStore(mask, px, uvec4(0xffffffffu));
-    if (answer == pair_unsure) unsure = current;
+#else
+  vec3 p = receiver_point(eye, vec2(r.px) + 0.5, r.data.x);
+  int answer = classify(eye, triangle, p, r.data.x);
+  unsure = answer == pair_unsure;
+#ifdef IN_DOUBLE
+  if (unsure) answer = occludes(eye, light, g_a, g_b, g_c, p, r.data.x) ? pair_in : pair_out;
+#endif
+  uint bits = answer == pair_in ? 0xffffffffu : 0u;
+#endif
+#ifdef IN_DOUBLE
+  unsure = false;
+#endif
+  return bits;
+}
+
+struct Walk {
+  Receiver previous;
+  uint node;  // where to go on
+  uint tests;
+  uint removed;
+  uint unchanged;
+};
+
+// Tests the pixels of a list; stops at the end, or after a pair that single precision cannot decide. True: such a pair was
+// met, `px` is its pixel.
+bool walk(CameraFrame eye, Triangle triangle, ivec3 head_texel, inout Walk w, out ivec2 px) {
+  bool unsure = false;
+#ifdef PIPELINE
+  Receiver ahead = load_receiver(w.node);
+#endif
+  while (w.node != no_node && !unsure) {
+#ifdef PIPELINE
+    Receiver r = ahead;
+    ahead = load_receiver(r.next);
+#else
+    Receiver r = load_receiver(w.node);
+#endif
+    w.node = r.next;
+    px = r.px;
+#ifdef REMOVAL
+    if (imageLoad(mask, px).x == 0xffffffffu) {
+      unlink_after(w.previous, head_texel, r.next);
+      ++w.removed;
+      continue;
+    }
+    w.previous = r;
+#endif
+    ++w.tests;
+    uint bits = test(eye, triangle, r, unsure);
+    if (bits != 0u && !add_shadow(px, bits)) ++w.unchanged;
   }
   return unsure;
 }
 
 void main() {
   if (any(lessThan(gl_FragCoord.xy, g_box.xy)) || any(greaterThan(gl_FragCoord.xy, g_box.zw))) discard;
-  TrianglePlanes planes = make_planes(light, g_a, g_b, g_c);
+  Triangle triangle = make_triangle(light, g_a, g_b, g_c);
   CameraFrame eye = camera;  // read once, not in every round of the loop
-  uint node = texelFetch(heads, ivec2(gl_FragCoord.xy), 0).x;
-  uint tests = 0u;
-  uint unsure = walk(eye, planes, node, tests);
+#ifdef CASCADES
+  ivec3 head_texel = ivec3(gl_FragCoord.xy, gl_Layer);
+#else
+  ivec3 head_texel = ivec3(gl_FragCoord.xy, 0);
+#endif
+  Walk w;
+  w.previous.node = no_node;
+  w.node = load_head(head_texel);
+  w.tests = w.removed = w.unchanged = 0u;
+  ivec2 px;
+  bool unsure = walk(eye, triangle, head_texel, w, px);
 #ifndef COUNT
   // Nearly all end here. A machine of lanes pays for a branch that nobody takes, but not for code after a discard of all.
-  if (unsure == no_node) discard;
+  if (!unsure) discard;
 #endif
-  while (unsure != no_node) {
+  while (unsure) {
     // A receiver's own triangle, the commonest of them, lies within the bias of its plane and never occludes it.
-    if (texelFetch(id_texture, pixel_from_node(unsure), 0).xy != g_id) add_pair(unsure);
-    unsure = walk(eye, planes, node, tests);
+    if (texelFetch(id_texture, px, 0).xy != g_id) add_pair(px);
+    unsure = walk(eye, triangle, head_texel, w, px);
   }
 #ifdef COUNT
   atomicAdd(counters.fragments, 1u);
-  atomicAdd(counters.visibility_tests, tests);
+  atomicAdd(counters.visibility_tests, w.tests);
+  atomicAdd(counters.removed, w.removed);
+  atomicAdd(counters.unchanged, w.unchanged);
 #endif
 }

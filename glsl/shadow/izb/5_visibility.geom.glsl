@@ -1,16 +1,22 @@
 #version 450 core
 // 5.5 Conservative rasterisation by dilation: the triangle's footprint on the light-space grid, with its vertices for the
-// test in the fragment shader.
+// test in the fragment shader. CASCADES: into the layers [first, end) of `cascades`, at most CASCADES of them (6.4).
 #include "shared/bindings.h"
 #include "shared/footprint.h"
 #include "shared/pairs.h"
 #include "shared/pyramid.h"
 
 layout(triangles) in;
+#ifdef CASCADES
+layout(triangle_strip, max_vertices = 4 * CASCADES) out;
+layout(location = 2) uniform ivec2 cascades;
+#else
 layout(triangle_strip, max_vertices = 4) out;
+#endif
+layout(location = 1) uniform float dilation;  // texels
 
 layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
-layout(std430, binding = BIND_WINDOW) readonly buffer WindowBlock { LightWindow window; };
+layout(std430, binding = BIND_WINDOW) readonly buffer WindowBlock { LightWindow windows[max_cascades]; };
 
 layout(location = 0) in vec3 v_position_vs[];
 layout(location = 1) flat in uint v_instance[];
@@ -25,10 +31,10 @@ layout(location = 4) flat out uvec2 g_id;
 layout(std430, binding = BIND_COUNTERS) buffer CounterBlock { Counters counters; };
 #endif
 #ifdef PYRAMID
-layout(binding = UNIT_PYRAMID) uniform usampler2D pyramid;
+layout(binding = UNIT_PYRAMID) uniform usampler2DArray pyramid;
 
 // Is no receiver of the texels that the footprint can touch behind it?
-bool behind_all(Footprint f) {
+bool behind_all(Footprint f, int cascade) {
   vec2 size = f.box.zw - f.box.xy;
   float largest = max(size.x, size.y);
   int k = 0;
@@ -38,34 +44,48 @@ bool behind_all(Footprint f) {
   ivec2 origin = pyramid_origin(int(light.grid.x), k);
   ivec2 low = origin + clamp(ivec2(floor(f.box.xy)) >> log_texels, ivec2(0), last);
   ivec2 high = origin + clamp(ivec2(floor(f.box.zw)) >> log_texels, ivec2(0), last);
-  uint furthest = max(max(texelFetch(pyramid, low, 0).x, texelFetch(pyramid, high, 0).x),
-                      max(texelFetch(pyramid, ivec2(low.x, high.y), 0).x, texelFetch(pyramid, ivec2(high.x, low.y), 0).x));
+  uint furthest = max(max(texelFetch(pyramid, ivec3(low, cascade), 0).x, texelFetch(pyramid, ivec3(high, cascade), 0).x),
+                      max(texelFetch(pyramid, ivec3(low.x, high.y, cascade), 0).x,
+                          texelFetch(pyramid, ivec3(high.x, low.y, cascade), 0).x));
   float nearest = min(min(f.p0.z, f.p1.z), f.count == 4 ? min(f.p2.z, f.p3.z) : f.p2.z);
   return max(nearest, 0.0) >= uintBitsToFloat(furthest);
 }
 #endif
 
-void emit(vec3 corner, Footprint f) {
+void emit(vec3 corner, Footprint f, int cascade) {
   gl_Position = vec4(corner.xy * (2.0 / float(light.grid.x)) - 1.0, corner.z, 1.0);
   g_a = v_position_vs[0];
   g_b = v_position_vs[1];
   g_c = v_position_vs[2];
   g_box = f.box;
   g_id = uvec2(v_instance[0] + 1u, uint(gl_PrimitiveIDIn));
+#ifdef CASCADES
+  gl_Layer = cascade;
+#endif
   EmitVertex();
 }
 
-void main() {
-  Footprint f = make_footprint(light, window, v_position_vs[0], v_position_vs[1], v_position_vs[2], 0.5);
+void spawn(int cascade) {
+  Footprint f =
+      make_footprint(light, windows[cascade], v_position_vs[0], v_position_vs[1], v_position_vs[2], dilation);
   if (f.count == 0) return;
 #ifdef PYRAMID
-  if (behind_all(f)) return;
+  if (behind_all(f, cascade)) return;
 #endif
 #ifdef COUNT
   atomicAdd(counters.triangles, 1u);
 #endif
-  emit(f.p0, f);
-  emit(f.p1, f);
-  emit(f.p2, f);
-  if (f.count == 4) emit(f.p3, f);
+  emit(f.p0, f, cascade);
+  emit(f.p1, f, cascade);
+  emit(f.p2, f, cascade);
+  if (f.count == 4) emit(f.p3, f, cascade);
+  EndPrimitive();
+}
+
+void main() {
+#ifdef CASCADES
+  for (int cascade = cascades.x; cascade < cascades.y; ++cascade) spawn(cascade);
+#else
+  spawn(0);
+#endif
 }

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// The options of the technique `izb`, and which program each stage takes for them.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "base/options.h"
+#include "frame/samples.h"
+#include "gpu/glsl_front_end.h"
+
+namespace izb {
+
+struct IzbSettings {
+  SampleOptions sampling;
+  std::string coverage = "lut", lut = "64", insertion = "approximate", cascade_pass = "single", raster = "gs";
+  int grid = 2048, nodes = 8, cascades = 1;
+  double dilation_texels = 1.0;
+  bool zcull = true, zcull_pyramid = true, nl_cull = true;
+  bool removal = false, unchanged_skip = false, pipelining = false;
+  int pair_capacity = 1 << 17;
+
+  /// Declares every option, bound to this object.
+  OptionSet options();
+  /// Sets what the preset is about and leaves the rest. Throws izb::UsageError for an unknown name.
+  void apply(const std::string& preset);
+  static std::vector<std::string> preset_names();
+
+  bool many_samples() const { return sampling.spp != "1"; }
+  bool table() const { return many_samples() && coverage == "lut"; }
+  bool pool() const { return many_samples() && insertion == "exact"; }
+  bool pyramid() const { return zcull && zcull_pyramid; }
+  int table_side() const { return std::stoi(lut); }
+  /// Slots of a pixel in the grid of nodes.
+  int slots() const { return many_samples() && !pool() ? nodes : 1; }
+  /// Texels by which triangles are dilated: what a texel's own square asks for where nodes stand in every texel that
+  /// they touch, the option's value where they do not (6.1).
+  double dilation() const { return many_samples() && !pool() ? dilation_texels : 0.5; }
+  /// Layers that one draw of the casters reaches.
+  int layers_a_pass() const { return cascade_pass == "single" ? cascades : 1; }
+};
+
+/// The programs of the technique's stages.
+enum class IzbProgram {
+  build,
+  count_nodes,
+  zcull,
+  pyramid_first,
+  pyramid,
+  visibility,
+  visibility_in_double,
+  visibility_counted,
+  visibility_counted_all,
+  settle,
+  overflow,
+  count
+};
+
+gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& settings);
+
+/// Every program of the defaults, of each option alone from the defaults, and of the presets.
+std::vector<gpu::ProgramSpec> izb_program_specs();
+
+}  // namespace izb
