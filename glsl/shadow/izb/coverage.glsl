@@ -46,7 +46,10 @@ Sides sides_of(vec3 line, float error, inout bool unsure) {
 #endif
 
 // Bounds the error of a quad_line over the pixel: see docs/VALIDATION.md.
-float line_error(float plane_error, vec3 q, MicroQuad quad) { return plane_error * (3.0 * norm1(q) + 2.0 * quad.extent); }
+float line_error(float plane_error, vec3 q, MicroQuad quad) {
+  float steepness = abs(quad.slope.x) + abs(quad.slope.y);
+  return plane_error * (norm1(q) * (1.0 + 0.5 * steepness) + 0.75 * quad.extent);
+}
 
 Sides edge_sides(EdgePlane e, MicroQuad quad, inout bool unsure) {
   vec3 q = e.first - quad.center;

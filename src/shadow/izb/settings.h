@@ -17,7 +17,7 @@ struct IzbSettings {
   double dilation_texels = 1.0;
   bool zcull = true, zcull_pyramid = true, nl_cull = true;
   bool removal = false, unchanged_skip = false, pipelining = false;
-  int pair_capacity = 1 << 17;
+  int pair_capacity = 1 << 20;
 
   /// Declares every option, bound to this object.
   OptionSet options();
