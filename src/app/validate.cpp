@@ -211,10 +211,11 @@ void print_table(const std::vector<Outcome>& outcomes) {
 }
 
 /// Whether nothing is wrong but what an approximation that was asked for may be.
-bool passes(const nlohmann::json& json, double max_leak_percent) {
-  if (json["unexplained"] != 0) return false;
-  if (json.contains("points") && json["points"]["wrong"] != 0) return false;
-  return !json.contains("attribution") || json["attribution"]["leak_percent"] <= max_leak_percent;
+bool passes(const Outcome& outcome, double max_leak_percent) {
+  const nlohmann::json& json = outcome.json;
+  const bool leaks = json.contains("attribution") && json["attribution"]["leak_percent"] > max_leak_percent;
+  if (leaks) warn("{}: the insertion leaks more than --max-leak {} percent", outcome.scene, max_leak_percent);
+  return !leaks && json["unexplained"] == 0 && (!json.contains("points") || json["points"]["wrong"] == 0);
 }
 
 int validate(const ValidateOptions& o) {
@@ -222,7 +223,7 @@ int validate(const ValidateOptions& o) {
   bool good = true;
   for (const std::string& scene : o.scenes) {
     outcomes.push_back(validate_scene(o, scene));
-    good &= passes(outcomes.back().json, o.max_leak);
+    good &= passes(outcomes.back(), o.max_leak);
   }
   print_table(outcomes);
   if (!o.json.empty()) {

@@ -217,6 +217,31 @@ TEST_F(Output, ValidateCountsBitsOf32SamplesAPixel) {
   EXPECT_TRUE(outcome.prints("model %"));
 }
 
+TEST_F(Output, ValidateAttributesTheWrongBitsOfApproximations) {
+  const auto validate = [&](const std::string& coverage, const std::string& insertion) {
+    return izb::test::izb({"validate", scene, "--size", "64x36", "--eye", "0,8,8.1", "--target", "0,0,0", "--json",
+                           json, "--spp", "32", "--coverage", coverage, "--insertion", insertion});
+  };
+  const Outcome outcome = validate("lut", "approximate");
+  if (outcome.says("Embree") && outcome.code == 1) GTEST_SKIP() << "this build has no Embree";
+  if (outcome.says("--coverage")) GTEST_SKIP() << "izb has no approximations yet";
+  ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  const nlohmann::json j = read_json(json);
+  EXPECT_EQ(j["options"]["coverage"], "lut");
+  EXPECT_EQ(j["options"]["insertion"], "approximate");
+  EXPECT_GT(j["attribution"]["table"], 0);
+  EXPECT_EQ(j["attribution"]["shadowed_bits"], j["shadowed"]);
+  EXPECT_TRUE(outcome.prints("leak %"));
+  // The exact mask is the settled one: the table's wrong bits are no disputes.
+  const std::string with_table = j["mask_hash"];
+  ASSERT_EQ(validate("exact", "exact").code, 0);
+  const nlohmann::json exact = read_json(json);
+  EXPECT_FALSE(exact.contains("attribution"));
+  EXPECT_NE(exact["mask_hash"], with_table);
+  for (const char* key : {"lit", "shadowed", "disputed", "explained", "unexplained"})
+    EXPECT_EQ(exact[key], j[key]) << key;
+}
+
 TEST_F(Output, InfoTellsTheContextAndTheScene) {
   const Outcome outcome = izb::test::izb({"info", scene});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
