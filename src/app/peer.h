@@ -8,8 +8,8 @@
 
 namespace izb {
 
-/// Rebuilds the hierarchy of all the frame's triangles at each build quality and traces one ray a receiver, in packets
-/// of 16. Wall times in milliseconds.
+/// Rebuilds the hierarchy of all the frame's triangles at each build quality and traces one ray a sample of each
+/// receiver, in packets of 16. Wall times in milliseconds.
 class Peer {
  public:
   /// Takes the triangles and receivers of the renderer's last frame.

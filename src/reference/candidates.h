@@ -22,7 +22,7 @@ struct Candidates {
 
 /// A ball: its truth is asked at `center_vs` and at points no further than `radius` away, in world units.
 struct Ball {
-  glm::vec3 center_vs;
+  glm::dvec3 center_vs;
   float radius;
   uint32_t own_triangle;  ///< left out of the ball's list
 };

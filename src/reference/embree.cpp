@@ -128,16 +128,11 @@ float start_distance(const glm::vec3& point) {
   return 8.0f * largest(point) * 0x1p-23f;
 }
 
-// Collects receivers until 16 rays are full. Packets hold receivers only, whatever lies between them.
+// Collects samples of receivers until 16 rays are full. Packets hold receivers only, whatever lies between them.
 class ShadowPacket {
  public:
   ShadowPacket(RTCScene scene, const LightPoint& light, const Receivers& receivers, std::vector<uint32_t>& mask)
-      : scene_(scene),
-        light_(light),
-        points_(receivers.points_vs.data()),
-        classes_(receivers.classes.data()),
-        mask_(mask),
-        query_(true) {
+      : scene_(scene), light_(light), receivers_(receivers), mask_(mask), query_(true) {
     query_.own_triangle = receivers.own_triangle.data();
     for (int lane = 0; lane < packet; ++lane)
       ray_.time[lane] = 0.0f, ray_.mask[lane] = 0xFFFFFFFFu, ray_.flags[lane] = 0;
@@ -146,7 +141,7 @@ class ShadowPacket {
   // The receivers among [begin, end).
   void add(size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i)
-      if (classes_[i] == PixelClass::receiver) add(i);
+      if (receivers_.classes[i] == PixelClass::receiver) add(i);
   }
 
   // Traces what is left; returns the number of rays of all packets.
@@ -157,7 +152,12 @@ class ShadowPacket {
 
  private:
   void add(size_t i) {
-    const glm::vec3& p = points_[i];
+    const MicroQuad quad = receivers_.quad(i);
+    for (int s = 0; s < receivers_.sample_count(); ++s)
+      add(i, glm::vec3(quad.at(receivers_.offsets_px[static_cast<size_t>(s)])), receivers_.word_of(s));
+  }
+
+  void add(size_t i, const glm::vec3& p, uint32_t word) {
     const glm::vec3 d = light_.positional ? light_.xyz_vs - p : light_.xyz_vs;
     ray_.org_x[lanes_] = p.x, ray_.org_y[lanes_] = p.y, ray_.org_z[lanes_] = p.z;
     ray_.dir_x[lanes_] = d.x, ray_.dir_y[lanes_] = d.y, ray_.dir_z[lanes_] = d.z;
@@ -165,6 +165,7 @@ class ShadowPacket {
     ray_.tnear[lanes_] = start_distance(p) / largest(d);
     ray_.tfar[lanes_] = light_.positional ? 1.0f - 0x1p-24f : infinity;  // strictly before the light
     ray_.id[lanes_] = static_cast<unsigned>(i);
+    word_[lanes_] = word;
     if (++lanes_ == packet) flush();
   }
 
@@ -179,18 +180,18 @@ class ShadowPacket {
     }
     occluded(valid, scene_, ray_, query_);
     for (int lane = 0; lane < lanes_; ++lane)
-      if (ray_.tfar[lane] < 0.0f) mask_[ray_.id[lane]] = 0xFFFFFFFFu;  // Embree: -infinity where occluded
+      if (ray_.tfar[lane] < 0.0f) mask_[ray_.id[lane]] |= word_[lane];  // Embree: -infinity where occluded
     traced_ += static_cast<uint64_t>(lanes_);
     lanes_ = 0;
   }
 
   RTCScene scene_;
   const LightPoint& light_;
-  const glm::vec3* points_;
-  const PixelClass* classes_;
+  const Receivers& receivers_;
   std::vector<uint32_t>& mask_;
   Query query_;
   RTCRay16 ray_;
+  uint32_t word_[packet];  // what each ray sets in its receiver's mask word
   int lanes_ = 0;
   uint64_t traced_ = 0;
 };
@@ -278,10 +279,8 @@ double RayTracer::rebuild(BuildQuality quality) {
 
 MaskTrace RayTracer::trace_mask(const LightPoint& light, const Receivers& receivers) const {
   const State& s = *state_;
-  const size_t count = receivers.points_vs.size();
-  if (receivers.own_triangle.size() != count || receivers.classes.size() != count)
-    fail("cannot trace a mask: {} points come with {} triangles and {} classes", count, receivers.own_triangle.size(),
-         receivers.classes.size());
+  receivers.check("trace a mask");
+  const size_t count = receivers.count();
   const size_t width = static_cast<size_t>(std::max(receivers.width_px, 0));
   if (width != 0 && count % width != 0) fail("cannot trace a mask: {} points do not fill rows of {}", count, width);
   MaskTrace result;

@@ -24,7 +24,7 @@ enum class BuildQuality { low, medium, high };
 
 /// A shadow mask and the wall time of tracing it, without the build.
 struct MaskTrace {
-  std::vector<uint32_t> mask;  ///< one word a receiver: 0xFFFFFFFF occluded, 0 lit or not a receiver
+  std::vector<uint32_t> mask;  ///< one word a receiver, as exact_mask() has them
   double trace_ms = 0.0;
   uint64_t rays = 0;
 };
@@ -34,8 +34,6 @@ struct PrimaryHits {
   std::vector<uint32_t> triangle;  ///< index into Triangles, no_triangle where nothing is hit
   std::vector<float> t;            ///< distance in units of the ray's direction, infinity where nothing is hit
 };
-
-inline constexpr uint32_t no_triangle = 0xFFFFFFFFu;
 
 /// A hierarchy over one frame's triangles. Move-only; owns its device, so several may live at once.
 class RayTracer {
@@ -54,8 +52,8 @@ class RayTracer {
   /// build_ms().
   double rebuild(BuildQuality quality);
 
-  /// One shadow ray for each receiver point, to the light. The point's own triangle never occludes it.
-  /// Throws izb::Error where the receivers' arrays differ in length.
+  /// One shadow ray for each sample of each receiver, from the sample's point rounded to floats, to the light. The
+  /// receiver's own triangle never occludes it. Throws izb::Error where the receivers' arrays differ in length.
   MaskTrace trace_mask(const LightPoint& light, const Receivers& receivers) const;
 
   /// Nearest hits with t in [t_near, t_far]. `origins` has one entry for all rays or one a ray.

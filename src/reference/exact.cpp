@@ -9,7 +9,6 @@
 #include <limits>
 #include <optional>
 
-#include "base/error.h"
 #include "reference/parallel.h"
 
 namespace izb::reference {
@@ -180,24 +179,25 @@ double plane_distance(const glm::dvec3& point_vs, const Corners& triangle, const
   Question question(point_vs, triangle, light);
   const int sign = question.den() * question.num();
   if (sign == 0) return 0.0;
-  const glm::dvec3 a(triangle.a);
-  const glm::dvec3 normal = glm::cross(glm::dvec3(triangle.b) - a, glm::dvec3(triangle.c) - a);
-  const double length = glm::length(normal);
-  return length > 0.0 ? sign * std::abs(glm::dot(normal, a - point_vs)) / length : 0.0;
+  const glm::dvec3 across = normal(triangle);
+  const double length = glm::length(across);
+  return length > 0.0 ? sign * std::abs(glm::dot(across, glm::dvec3(triangle.a) - point_vs)) / length : 0.0;
 }
 
 std::vector<uint32_t> exact_mask(const Triangles& triangles, const LightPoint& light, const Receivers& receivers) {
-  const size_t count = receivers.points_vs.size();
-  if (receivers.own_triangle.size() != count || receivers.classes.size() != count)
-    fail("cannot compute an exact mask: {} points come with {} triangles and {} classes", count,
-         receivers.own_triangle.size(), receivers.classes.size());
-  std::vector<uint32_t> mask(count, 0);
-  parallel_for(count, 64, 0, [&](size_t begin, size_t end, unsigned) {
+  receivers.check("compute an exact mask");
+  std::vector<uint32_t> mask(receivers.count(), 0);
+  parallel_for(receivers.count(), 64, 0, [&](size_t begin, size_t end, unsigned) {
     for (size_t i = begin; i < end; ++i) {
       if (receivers.classes[i] != PixelClass::receiver) continue;
-      for (size_t t = 0; t < triangles.count() && !mask[i]; ++t)
-        if (t != receivers.own_triangle[i] && occluded_exact(receivers.points_vs[i], corners(triangles, t), light))
-          mask[i] = 0xFFFFFFFFu;
+      for (int s = 0; s < receivers.sample_count(); ++s) {
+        const glm::dvec3 point = receivers.point(i, s);
+        for (size_t t = 0; t < triangles.count(); ++t) {
+          if (t == receivers.own_triangle[i] || !occluded_exact(point, corners(triangles, t), light)) continue;
+          mask[i] |= receivers.word_of(s);
+          break;
+        }
+      }
     }
   });
   return mask;

@@ -30,6 +30,12 @@ inline Corners corners(const Triangles& triangles, size_t triangle) {
   return {v[0], v[1], v[2]};
 }
 
+/// Of the triangle's plane, in double, any length.
+inline glm::dvec3 normal(const Corners& t) {
+  const glm::dvec3 a(t.a);
+  return glm::cross(glm::dvec3(t.b) - a, glm::dvec3(t.c) - a);
+}
+
 /// Whether the triangle occludes the point: the rule above, exactly. Any finite doubles may be the point.
 bool occluded_exact(const glm::dvec3& point_vs, const Corners& triangle, const LightPoint& light);
 
@@ -42,9 +48,9 @@ bool plane_between_exact(const glm::dvec3& point_vs, const Corners& triangle, co
 /// 0 for a degenerate or edge-on triangle.
 double plane_distance(const glm::dvec3& point_vs, const Corners& triangle, const LightPoint& light);
 
-/// The exact mask by brute force: every receiver against every triangle but its own, on all cores. For small
-/// cases. One word a receiver: 0xFFFFFFFF occluded, 0 lit or not a receiver. Throws izb::Error where the
-/// receivers' arrays differ in length.
+/// The exact mask by brute force: every sample against every triangle but its receiver's own, on all cores. For
+/// small cases. One word a receiver, 0 where it is none: bit s is set where sample s is occluded, all bits where the
+/// only sample is. Throws izb::Error where the receivers' arrays differ in length.
 std::vector<uint32_t> exact_mask(const Triangles& triangles, const LightPoint& light, const Receivers& receivers);
 
 }  // namespace izb::reference

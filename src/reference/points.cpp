@@ -221,10 +221,10 @@ struct Partial {
     // Points that get no light may stand beside their plane, e.g. on slivers seen edge-on.
     if (receivers.classes[pixel] != PixelClass::receiver || receivers.own_triangle[pixel] >= triangles.count()) return;
     const Corners own = corners(triangles, receivers.own_triangle[pixel]);
-    const glm::dvec3 a(own.a), normal = glm::cross(glm::dvec3(own.b) - a, glm::dvec3(own.c) - a);
+    const glm::dvec3 a(own.a), across = normal(own);
     const double size = std::max({largest(p), largest(a), largest(own.b), largest(own.c)});
     raise(sums.max_plane_ulps, sums.max_plane_pixel,
-          std::abs(glm::dot(normal, p - a)) / glm::length(normal) / float_ulp(size), pixel);
+          std::abs(glm::dot(across, p - a)) / glm::length(across) / float_ulp(size), pixel);
   }
 
   void add(const Partial& other) {
@@ -261,10 +261,10 @@ PointCheck check_points(const RayTracer& tracer, const Triangles& triangles, con
                         const Receivers& receivers) {
   const size_t width = static_cast<size_t>(std::max(rays.width_px, 0));
   const size_t count = width * static_cast<size_t>(std::max(rays.height_px, 0));
-  if (receivers.points_vs.size() != count || receivers.own_triangle.size() != count ||
-      receivers.classes.size() != count)
-    fail("cannot check the points: {} x {} pixels come with {} points, {} triangles and {} classes", rays.width_px,
-         rays.height_px, receivers.points_vs.size(), receivers.own_triangle.size(), receivers.classes.size());
+  receivers.check("check the points");
+  if (receivers.count() != count)
+    fail("cannot check the points: {} x {} pixels come with {} points", rays.width_px, rays.height_px,
+         receivers.count());
   const PixelChecker checker(tracer, triangles, rays);
   Partial total;
   std::mutex total_guard;

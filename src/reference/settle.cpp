@@ -2,6 +2,7 @@
 #include "reference/settle.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 
 #include "base/error.h"
@@ -10,27 +11,17 @@
 #include "reference/witness.h"
 
 namespace izb::reference {
-namespace {
-
-void check_lengths(const Receivers& receivers, size_t mask, size_t ray_mask) {
-  const size_t count = receivers.points_vs.size();
-  if (receivers.own_triangle.size() != count || receivers.classes.size() != count || receivers.band.size() != count ||
-      mask != count || ray_mask != count)
-    fail(
-        "cannot compare masks: {} points come with {} triangles, {} classes, {} bands, {} mask words and {} "
-        "ray words",
-        count, receivers.own_triangle.size(), receivers.classes.size(), receivers.band.size(), mask, ray_mask);
-}
-
-}  // namespace
-
 Settled settle(const Triangles& triangles, const LightPoint& light, const Receivers& receivers,
                std::span<const uint32_t> mask, std::span<const uint32_t> ray_mask, size_t record_cap) {
-  check_lengths(receivers, mask.size(), ray_mask.size());
+  receivers.check("compare masks");
+  if (mask.size() != receivers.count() || ray_mask.size() != receivers.count())
+    fail("cannot compare masks: {} points come with {} mask words and {} ray words", receivers.count(), mask.size(),
+         ray_mask.size());
   const auto start = std::chrono::steady_clock::now();
   Settled result;
   result.verdicts.assign(mask.size(), Verdict::not_compared);
-  std::vector<uint32_t> disputed;
+  const auto samples = static_cast<unsigned>(receivers.sample_count());
+  std::vector<DisputedBit> bits;
   std::vector<Ball> balls;
   for (uint32_t i = 0; i < mask.size(); ++i) {
     switch (receivers.classes[i]) {
@@ -46,36 +37,41 @@ Settled settle(const Triangles& triangles, const LightPoint& light, const Receiv
       case PixelClass::receiver:
         break;
     }
-    ++result.compared;
-    ++(mask[i] ? result.shadowed : result.lit);
+    const uint32_t ours = receivers.bits_of(mask[i]);
+    const auto shadowed = static_cast<unsigned>(std::popcount(ours));
+    result.compared += samples;
+    result.shadowed += shadowed;
+    result.lit += samples - shadowed;
     result.verdicts[i] = Verdict::agreed;
-    if ((mask[i] != 0) == (ray_mask[i] != 0)) continue;
-    disputed.push_back(i);
-    balls.push_back({receivers.points_vs[i], receivers.band[i], receivers.own_triangle[i]});
+    for (uint32_t open = ours ^ receivers.bits_of(ray_mask[i]); open != 0; open &= open - 1) {
+      const int s = std::countr_zero(open);
+      bits.push_back({.receiver = i, .sample = static_cast<uint8_t>(s)});
+      balls.push_back({receivers.point(i, s), receivers.band[i], receivers.own_triangle[i]});
+    }
   }
-  result.disputed = disputed.size();
+  result.disputed = bits.size();
 
   const Candidates candidates = find_candidates(triangles, light, balls);
-  std::vector<DisputedBit> bits(disputed.size());
-  parallel_for(disputed.size(), 16, 0, [&](size_t begin, size_t end, unsigned) {
+  parallel_for(bits.size(), 16, 0, [&](size_t begin, size_t end, unsigned) {
     std::vector<Corners> occluders;
     for (size_t k = begin; k < end; ++k) {
-      const uint32_t i = disputed[k];
-      const glm::dvec3 point(receivers.points_vs[i]);
-      const double band = receivers.band[i];
+      DisputedBit& bit = bits[k];
+      const glm::dvec3& point = balls[k].center_vs;
+      const double band = balls[k].radius;
       occluders.clear();
       for (const uint32_t t : candidates.of(k)) occluders.push_back(corners(triangles, t));
       const bool truth = shadowed_exact(point, occluders, light);
-      bits[k] = {i, Verdict::settled_ours, truth, 0.0};
-      if (truth == (mask[i] != 0)) continue;
-      bits[k].verdict =
+      bit.leak = truth;
+      bit.verdict = Verdict::settled_ours;
+      if (truth == ((receivers.bits_of(mask[bit.receiver]) >> bit.sample & 1u) != 0)) continue;
+      bit.verdict =
           truth_changes_within(point, band, truth, occluders, light) ? Verdict::explained : Verdict::unexplained;
-      bits[k].edge_distance_bands = nearest_edge_distance(point, occluders, light) / band;
+      bit.edge_distance_bands = nearest_edge_distance(point, occluders, light) / band;
     }
   });
 
   for (const DisputedBit& bit : bits) {
-    result.verdicts[bit.receiver] = bit.verdict;
+    result.verdicts[bit.receiver] = std::max(result.verdicts[bit.receiver], bit.verdict);
     if (bit.verdict == Verdict::settled_ours) {
       ++result.settled_ours;
       continue;

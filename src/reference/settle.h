@@ -9,7 +9,7 @@
 
 namespace izb::reference {
 
-/// What became of one receiver's bit.
+/// What became of a bit, from good to bad. A receiver has the worst of its bits' verdicts.
 enum class Verdict : uint8_t {
   not_compared,  ///< not a receiver
   agreed,        ///< mask and ray agree
@@ -21,13 +21,15 @@ enum class Verdict : uint8_t {
 /// One explained or unexplained bit.
 struct DisputedBit {
   uint32_t receiver = 0;
+  uint8_t sample = 0;
   Verdict verdict = Verdict::unexplained;
   bool leak = false;                 ///< lit in the mask, shadowed in truth; otherwise a false shadow
   double edge_distance_bands = 0.0;  ///< to the nearest edge of any nearby occluder, in bands; infinity: none
 };
 
+/// Counts are of bits, one a sample, but for those of the pixels left out.
 struct Settled {
-  uint64_t compared = 0;                           ///< receivers
+  uint64_t compared = 0;                           ///< of receivers
   uint64_t lit = 0;                                ///< of them, lit in the mask
   uint64_t shadowed = 0;                           ///< of them, shadowed in the mask
   uint64_t sky = 0, culled = 0, outside_cone = 0;  ///< pixels left out, and why
@@ -42,12 +44,12 @@ struct Settled {
   std::vector<DisputedBit> records;  ///< unexplained ones first, then in the receivers' order; at most `record_cap`
 };
 
-/// Compares `mask` (the technique's) with `ray_mask` (RayTracer::trace_mask) on the receivers; any non-zero
-/// word is shadow. Each bit that they dispute is decided by the exact truth at the point: the union of the
-/// exact shadows of all triangles but its own. Where the mask is not the truth, the bit is explained only by
-/// a witness within `receivers.band` (see witness.h), in particular an edge that two occluders share explains
-/// nothing, and a false shadow is never explained by a triangle's plane. On all cores. Throws izb::Error
-/// where the arrays differ in length.
+/// Compares `mask` (the technique's) with `ray_mask` (RayTracer::trace_mask) on the receivers, bit by bit; with one
+/// sample a pixel any non-zero word is shadow. Each bit that they dispute is decided by the exact truth at the
+/// sample's point: the union of the exact shadows of all triangles but the receiver's own. Where the mask is not the
+/// truth, the bit is explained only by a witness within `receivers.band` (see witness.h), in particular an edge that
+/// two occluders share explains nothing, and a false shadow is never explained by a triangle's plane. On all cores.
+/// Throws izb::Error where the arrays differ in length.
 Settled settle(const Triangles& triangles, const LightPoint& light, const Receivers& receivers,
                std::span<const uint32_t> mask, std::span<const uint32_t> ray_mask, size_t record_cap = 10000);
 

@@ -58,8 +58,8 @@ void add_edge(std::vector<Line>& lines, const Frame& frame, const LightPoint& li
 
 // Where the triangle's own plane meets the frame's: its shadow ends there, too.
 void add_plane(std::vector<Line>& lines, const Frame& frame, const Corners& t, double band) {
-  const glm::dvec3 a(t.a), normal = glm::cross(glm::dvec3(t.b) - a, glm::dvec3(t.c) - a);
-  add_line(lines, frame, normal, glm::dot(normal, a - frame.point), band);
+  const glm::dvec3 across = normal(t);
+  add_line(lines, frame, across, glm::dot(across, glm::dvec3(t.a) - frame.point), band);
 }
 
 // The nearest lines first, each once.
@@ -153,10 +153,10 @@ bool truth_changes_within(const glm::dvec3& point_vs, double band, bool truth, s
   };
   if (lit_along(frame.to_light)) return true;
   for (const Corners& t : usable) {
-    const glm::dvec3 a(t.a), normal = glm::cross(glm::dvec3(t.b) - a, glm::dvec3(t.c) - a);
+    const glm::dvec3 across = normal(t);
     // A triangle far from the point shadows it with its edges, not with its plane.
-    if (std::abs(glm::dot(normal, a - point_vs)) > band * glm::length(normal)) continue;
-    if (lit_along(normal) || lit_along(-normal)) return true;
+    if (std::abs(glm::dot(across, glm::dvec3(t.a) - point_vs)) > band * glm::length(across)) continue;
+    if (lit_along(across) || lit_along(-across)) return true;
   }
   return false;
 }

@@ -178,7 +178,8 @@ TEST_F(Output, ValidateAgreesAndWritesItsNumbers) {
   if (outcome.says("Embree") && outcome.code == 1) GTEST_SKIP() << "this build has no Embree";
   ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
   const nlohmann::json j = read_json(json);
-  for (const char* key : {"pixels", "lit", "shadowed", "disputed", "explained", "unexplained", "leaks", "false_shadow"})
+  for (const char* key : {"pixels", "spp", "shrunk_pixels", "lit", "shadowed", "disputed", "explained", "unexplained",
+                          "leaks", "false_shadow"})
     EXPECT_TRUE(j.contains(key)) << key;
   EXPECT_EQ(j["pixels"], 64 * 36);
   EXPECT_EQ(j["unexplained"], 0);
@@ -191,6 +192,54 @@ TEST_F(Output, ValidateAgreesAndWritesItsNumbers) {
   if (have_oiiotool()) {
     EXPECT_NE(oiiotool({"--info", png}).find("64 x   36"), std::string::npos);
   }
+}
+
+TEST_F(Output, ValidateCountsBitsOf32SamplesAPixel) {
+  // Off the scene's own camera, whose pixels' borders meet the roof's silhouette.
+  const Outcome outcome =
+      izb::test::izb({"validate", scene, "--size", "64x36", "--eye", "0,8,8.1", "--target", "0,0,0", "--json", json,
+                      "--heatmap", png, "--technique", "ray_traced", "--spp", "32", "--model", "on"});
+  if (outcome.says("Embree") && outcome.code == 1) GTEST_SKIP() << "this build has no Embree";
+  ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  const nlohmann::json j = read_json(json);
+  EXPECT_EQ(j["spp"], 32);
+  EXPECT_EQ(j["shrunk_pixels"], 0);  // the floor is seen from above
+  EXPECT_EQ(j["unexplained"], 0);
+  EXPECT_EQ(j["pixels"], 64 * 36);
+  const int left_out = j["left_out"]["sky"].get<int>() + j["left_out"]["culled"].get<int>();
+  EXPECT_EQ(j["compared"], 32 * (64 * 36 - left_out));
+  EXPECT_EQ(j["lit"].get<int>() + j["shadowed"].get<int>(), j["compared"]);
+  EXPECT_NE(j["shadowed"].get<int>() % 32, 0);  // a part of some pixels
+  EXPECT_FALSE(j.contains("attribution"));      // rays approximate nothing
+  EXPECT_GT(j["model"]["compared"], j["compared"].get<int>() / 2);
+  EXPECT_GT(j["model"]["differing"], 0);  // at the roof's silhouette
+  EXPECT_LT(j["model"]["percent"], 10.0);
+  EXPECT_TRUE(outcome.prints("model %"));
+}
+
+TEST_F(Output, ValidateAttributesTheWrongBitsOfApproximations) {
+  const auto validate = [&](const std::string& coverage, const std::string& insertion) {
+    return izb::test::izb({"validate", scene, "--size", "64x36", "--eye", "0,8,8.1", "--target", "0,0,0", "--json",
+                           json, "--spp", "32", "--coverage", coverage, "--insertion", insertion});
+  };
+  const Outcome outcome = validate("lut", "approximate");
+  if (outcome.says("Embree") && outcome.code == 1) GTEST_SKIP() << "this build has no Embree";
+  if (outcome.says("--coverage")) GTEST_SKIP() << "izb has no approximations yet";
+  ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  const nlohmann::json j = read_json(json);
+  EXPECT_EQ(j["options"]["coverage"], "lut");
+  EXPECT_EQ(j["options"]["insertion"], "approximate");
+  EXPECT_GT(j["attribution"]["table"], 0);
+  EXPECT_EQ(j["attribution"]["shadowed_bits"], j["shadowed"]);
+  EXPECT_TRUE(outcome.prints("leak %"));
+  // The exact mask is the settled one: the table's wrong bits are no disputes.
+  const std::string with_table = j["mask_hash"];
+  ASSERT_EQ(validate("exact", "exact").code, 0);
+  const nlohmann::json exact = read_json(json);
+  EXPECT_FALSE(exact.contains("attribution"));
+  EXPECT_NE(exact["mask_hash"], with_table);
+  for (const char* key : {"lit", "shadowed", "disputed", "explained", "unexplained"})
+    EXPECT_EQ(exact[key], j[key]) << key;
 }
 
 TEST_F(Output, InfoTellsTheContextAndTheScene) {

@@ -72,27 +72,62 @@ TEST_F(ReferenceEmbree, MaskIsTheExactMaskExceptWhereFloatRaysErr) {
   }
 }
 
-TEST_F(ReferenceEmbree, EveryBuildThreadCountAndPacketShapeGivesTheSameMask) {
-  const Frame frame;
-  for (const LightPoint& light : lights) {
-    RayTracer tracer(frame.triangles, BuildQuality::medium, 1);
-    const std::vector<uint32_t> mask = tracer.trace_mask(light, frame.receivers).mask;
-    for (const BuildQuality quality : {BuildQuality::low, BuildQuality::high}) {
-      EXPECT_GT(tracer.rebuild(quality), 0.0);
-      EXPECT_EQ(tracer.trace_mask(light, frame.receivers).mask, mask);
-    }
-    RayTracer moved = std::move(tracer);
-    EXPECT_EQ(moved.trace_mask(light, frame.receivers).mask, mask);
-    Receivers image = frame.receivers;
-    image.width_px = 101;
-    while (image.points_vs.size() % 101 != 0) {
-      add_receiver(image, {0, 0, 0});
-      image.classes.back() = PixelClass::sky;
-    }
-    std::vector<uint32_t> tiled = RayTracer(frame.triangles, BuildQuality::low, 3).trace_mask(light, image).mask;
-    tiled.resize(mask.size());
-    EXPECT_EQ(tiled, mask);
+// The same with 32 samples a receiver, on planes of random tilt, in front of an orthographic camera.
+Frame with_samples(Frame frame) {
+  Random random(12);
+  Receivers& r = frame.receivers;
+  r.offsets_px = random_offsets(random);
+  r.camera = {{0.03, 0.02}, false};
+  for (size_t i = 0; i < r.count(); ++i) r.slopes.emplace_back(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1));
+  for (glm::vec3& p : r.points_vs) p.z -= 20.0f;
+  for (glm::vec3& v : frame.triangles.positions_vs) v.z -= 20.0f;
+  return frame;
+}
+
+TEST_F(ReferenceEmbree, EachOf32BitsIsTheExactOneExceptWhereFloatRaysErr) {
+  Frame frame = with_samples({});
+  // All pairs of samples and triangles take a while: every tenth receiver.
+  for (size_t i = 0; i < frame.receivers.count(); ++i)
+    if (i % 10 != 1) frame.receivers.classes[i] = PixelClass::culled;
+  const RayTracer tracer(frame.triangles);
+  for (LightPoint light : lights) {
+    if (light.positional) light.xyz_vs.z -= 20.0f;
+    const std::vector<uint32_t> exact = exact_mask(frame.triangles, light, frame.receivers);
+    size_t mixed = 0;
+    for (const uint32_t word : exact) mixed += word != 0 && word != dark;
+    EXPECT_GT(mixed, 20u);
+    const MaskTrace rays = tracer.trace_mask(light, frame.receivers);
+    const Settled settled = settle(frame.triangles, light, frame.receivers, exact, rays.mask);
+    EXPECT_EQ(settled.compared, rays.rays);
+    EXPECT_LE(settled.disputed, settled.compared / 1000);
+    EXPECT_EQ(settled.settled_ours, settled.disputed);
+    const Settled judged = settle(frame.triangles, light, frame.receivers, rays.mask, exact);
+    EXPECT_EQ(judged.explained, judged.disputed);
   }
+}
+
+TEST_F(ReferenceEmbree, EveryBuildThreadCountAndPacketShapeGivesTheSameMask) {
+  for (const Frame& frame : {Frame(), with_samples({})})
+    for (const LightPoint& light : lights) {
+      RayTracer tracer(frame.triangles, BuildQuality::medium, 1);
+      const std::vector<uint32_t> mask = tracer.trace_mask(light, frame.receivers).mask;
+      for (const BuildQuality quality : {BuildQuality::low, BuildQuality::high}) {
+        EXPECT_GT(tracer.rebuild(quality), 0.0);
+        EXPECT_EQ(tracer.trace_mask(light, frame.receivers).mask, mask);
+      }
+      RayTracer moved = std::move(tracer);
+      EXPECT_EQ(moved.trace_mask(light, frame.receivers).mask, mask);
+      Receivers image = frame.receivers;
+      image.width_px = 101;
+      while (image.points_vs.size() % 101 != 0) {
+        add_receiver(image, {0, 0, 0});
+        image.classes.back() = PixelClass::sky;
+        if (!image.slopes.empty()) image.slopes.emplace_back(0.0);
+      }
+      std::vector<uint32_t> tiled = RayTracer(frame.triangles, BuildQuality::low, 3).trace_mask(light, image).mask;
+      tiled.resize(mask.size());
+      EXPECT_EQ(tiled, mask);
+    }
 }
 
 TEST_F(ReferenceEmbree, OwnTriangleIsSkippedAtGrazingLight) {

@@ -43,6 +43,13 @@ inline void add_receiver(Receivers& receivers, const glm::vec3& point, float ban
   receivers.band.push_back(band);
 }
 
+/// 32 samples a receiver, spread at random over the pixel.
+inline std::vector<glm::dvec2> random_offsets(Random& random) {
+  std::vector<glm::dvec2> offsets;
+  for (int s = 0; s < 32; ++s) offsets.emplace_back(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5));
+  return offsets;
+}
+
 inline constexpr uint32_t dark = 0xFFFFFFFFu;
 
 }  // namespace izb::reference

@@ -193,6 +193,77 @@ TEST(Settle, CountsAndRecords) {
   EXPECT_THROW(settle(triangles, sun_up, receivers, std::vector<uint32_t>(6), rays), Error);
 }
 
+// Sample s lies s 64ths of a unit to the right of the first; an orthographic camera looks down on the floor.
+Receivers row_of_samples(const glm::vec3& first) {
+  Receivers receivers;
+  add_receiver(receivers, first, band);
+  receivers.offsets_px.clear();
+  for (int s = 0; s < 32; ++s) receivers.offsets_px.emplace_back(s / 64.0, 0.0);
+  receivers.camera = {{1.0, 1.0}, false};
+  receivers.slopes.emplace_back(0.0);
+  return receivers;
+}
+
+TEST(SettleSamples, OneWrongBitOf32IsFound) {
+  // The roof's edge stands at x = 1, half a band beyond sample 16, and 15 bands before sample 17.
+  Triangles triangles;
+  add_rectangle(triangles, -1.0f, 1.0f, -4.0f, 1.0f, 2.0f);
+  const float edge_to_sample = 0.5f * band;
+  const Receivers receivers = row_of_samples({0.75f - edge_to_sample, 0, -0.25f});
+  const std::vector<uint32_t> truth = exact_mask(triangles, sun_up, receivers);
+  ASSERT_EQ(truth[0], 0x1ffffu);
+  struct Planted {
+    uint8_t sample;
+    Verdict verdict;
+    bool leak;
+  };
+  for (const Planted& planted : {Planted{3, Verdict::unexplained, true}, Planted{16, Verdict::explained, true},
+                                 Planted{17, Verdict::unexplained, false}, Planted{31, Verdict::unexplained, false}}) {
+    const std::vector<uint32_t> mask{truth[0] ^ 1u << planted.sample};
+    const Settled s = settle(triangles, sun_up, receivers, mask, truth);
+    EXPECT_EQ(s.compared, 32u);
+    EXPECT_EQ(s.shadowed, planted.leak ? 16u : 18u);
+    EXPECT_EQ(s.lit, 32u - s.shadowed);
+    EXPECT_EQ(s.disputed, 1u);
+    EXPECT_EQ(s.leaks, planted.leak ? 1u : 0u);
+    EXPECT_EQ(s.false_shadow, planted.leak ? 0u : 1u);
+    EXPECT_EQ(s.unexplained, planted.verdict == Verdict::unexplained ? 1u : 0u);
+    EXPECT_EQ(s.explained, planted.verdict == Verdict::explained ? 1u : 0u);
+    EXPECT_EQ(s.verdicts[0], planted.verdict);
+    ASSERT_EQ(s.records.size(), 1u);
+    EXPECT_EQ(s.records[0].sample, planted.sample);
+    EXPECT_EQ(s.records[0].verdict, planted.verdict);
+  }
+}
+
+TEST(SettleSamples, AReceiverHasTheWorstOfItsBits) {
+  Triangles triangles;
+  add_rectangle(triangles, -1.0f, 1.0f, -4.0f, 1.0f, 2.0f);
+  const Receivers receivers = row_of_samples({0.75f - 0.5f * band, 0, -0.25f});
+  const std::vector<uint32_t> truth = exact_mask(triangles, sun_up, receivers);
+  // An unexplained bit before an explained one and one that the ray has wrong, in the order of the samples.
+  const Settled s = settle(triangles, sun_up, receivers, std::vector<uint32_t>{truth[0] ^ 1u << 2 ^ 1u << 16},
+                           std::vector<uint32_t>{truth[0] ^ 1u << 20});
+  EXPECT_EQ(s.disputed, 3u);
+  EXPECT_EQ(s.unexplained, 1u);
+  EXPECT_EQ(s.explained, 1u);
+  EXPECT_EQ(s.settled_ours, 1u);
+  EXPECT_EQ(s.verdicts[0], Verdict::unexplained);
+  ASSERT_EQ(s.records.size(), 2u);
+  EXPECT_EQ(s.records[0].sample, 2u);
+  EXPECT_EQ(s.records[1].sample, 16u);
+}
+
+TEST(SettleSamples, MasksOfManySamplesAreComparedOnReceiversOnly) {
+  Triangles triangles;
+  add_rectangle(triangles, -1.0f, 1.0f, -1.0f, 1.0f, 2.0f);
+  Receivers receivers = row_of_samples({5, 0, 0});
+  receivers.classes[0] = PixelClass::culled;
+  const Settled s = settle(triangles, sun_up, receivers, std::vector<uint32_t>{0x0f0f0f0fu}, std::vector<uint32_t>{0});
+  EXPECT_EQ(s.culled, 1u);
+  EXPECT_EQ(s.compared + s.disputed, 0u);
+}
+
 Triangles soup(uint32_t seed, int count, double size) {
   Random random(seed);
   Triangles triangles;

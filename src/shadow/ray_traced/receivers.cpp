@@ -1,7 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/ray_traced/receivers.h"
 
+#include "reference/exact.h"
+
 namespace izb {
+namespace {
+
+/// The samples' offsets and the tangent planes of the pixels' own triangles, all in double.
+void add_samples(reference::Receivers& receivers, const FrameInputs& in) {
+  receivers.offsets_px.assign(in.samples.offsets_px.begin(), in.samples.offsets_px.end());
+  receivers.camera = {glm::dvec2(in.camera.pixel_ray), shared::is_perspective(in.camera)};
+  const std::vector<glm::vec3>& vertices = in.triangles_vs();
+  receivers.slopes.assign(receivers.count(), glm::dvec2(0.0));
+  for (size_t i = 0; i < receivers.count(); ++i) {
+    if (receivers.own_triangle[i] == reference::no_triangle) continue;
+    const glm::vec3* v = &vertices[3 * size_t(receivers.own_triangle[i])];
+    receivers.slopes[i] =
+        reference::tangent_slopes(receivers.points_vs[i], reference::normal({v[0], v[1], v[2]}), receivers.camera);
+  }
+}
+
+}  // namespace
 
 reference::Receivers make_receivers(const GBufferImage& image, const FrameInputs& in) {
   constexpr float band_px = 1.0f / 64.0f;
@@ -9,7 +28,7 @@ reference::Receivers make_receivers(const GBufferImage& image, const FrameInputs
   const size_t count = image.size();
   receivers.width_px = image.width_px;  // packets of rays cover tiles of pixels
   receivers.points_vs.resize(count);
-  receivers.own_triangle.assign(count, 0xffffffffu);
+  receivers.own_triangle.assign(count, reference::no_triangle);
   receivers.classes.resize(count);
   receivers.band.resize(count);
   for (size_t i = 0; i < count; ++i) {
@@ -18,6 +37,8 @@ reference::Receivers make_receivers(const GBufferImage& image, const FrameInputs
     receivers.band[i] = band_px * shared::pixel_width(in.camera, image.eye_distance[i]);
     if (image.id[i].x != 0) receivers.own_triangle[i] = (*in.first_triangle)[image.id[i].x - 1] + image.id[i].y;
   }
+  // The only sample of a pattern of one is the receiver point itself.
+  if (in.samples.count() > 1) add_samples(receivers, in);
   return receivers;
 }
 

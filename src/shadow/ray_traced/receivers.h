@@ -8,7 +8,7 @@
 namespace izb {
 
 /// The receiver points of a frame, one a pixel, top row first; each with the band of 1/64 pixel in which a bit may be
-/// explained.
+/// explained. The frame's shadow samples lie on the tangent plane of each pixel's own triangle, computed in double.
 reference::Receivers make_receivers(const GBufferImage& image, const FrameInputs& in);
 
 reference::LightPoint make_light_point(const shared::LightFrame& light);
