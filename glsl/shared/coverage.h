@@ -14,13 +14,12 @@
 SHARED_BEGIN
 
 // As plane_bias, for points up to twice as far away. Outside its own triangle a plane is uncertain by the rounding of the
-// vertices times the overhang over the triangle's height: the largest bias is taken there.
-SHARED float quad_bias(IN(CameraFrame) camera, IN(vec3) p, float t, float vertex_norm1, bool overhangs) {
-  PRECISE float rounding = 8.0f * unit_roundoff * (2.0f * norm1(p) + vertex_norm1);
+// vertices times the overhang.
+SHARED float quad_bias(IN(CameraFrame) camera, IN(vec3) p, float t, float vertex_norm1, float overhang) {
+  PRECISE float rounding = 8.0f * unit_roundoff * ((2.0f + overhang) * norm1(p) + vertex_norm1);
   PRECISE float limit = pixel_width(camera, t) * 0.0078125f;
   PRECISE float own = 8.0f * unit_roundoff * norm1(p);
-  float most = max(limit, own);
-  return overhangs ? most : min(rounding, most);
+  return min(rounding, max(limit, own));
 }
 
 // ---- the definition, in double ----------------------------------------------------------------------------------
@@ -68,7 +67,7 @@ SHARED QuadPlanes quad_planes(IN(CameraFrame) camera, IN(LightFrame) light, IN(v
                               IN(ivec2) px, IN(vec4) data) {
   vec3 p = receiver_point(camera, vec2(float(px.x) + 0.5f, float(px.y) + 0.5f), data.x);
   bool perspective = is_perspective(camera);
-  double k = double(abs(data.w));
+  double k = double(scale_of(data));
   double width = perspective ? k * double(data.x) : k;
   dvec3 turn = perspective ? dvec3(p) : dvec3(0.0, 0.0, 1.0);
   double sx = double(data.y);
@@ -91,7 +90,7 @@ SHARED QuadPlanes quad_planes(IN(CameraFrame) camera, IN(LightFrame) light, IN(v
   planes.height = quad_plane(n * sign, dvec3(a) - dvec3(p), along_x, along_y, slope);
   PRECISE double length2 = (n.x * n.x + n.y * n.y) + n.z * n.z;
   planes.length2 = length2;
-  double bias = double(quad_bias(camera, p, data.x, max_norm1(a, b, c), data.w < 0.0f));
+  double bias = double(quad_bias(camera, p, data.x, max_norm1(a, b, c), overhang_of(data)));
   planes.bias = dvec3(bias, bias * slope.x, bias * slope.y);
   return planes;
 }
@@ -158,7 +157,7 @@ SHARED QuadTriangle make_quad_triangle(IN(LightFrame) light, IN(vec3) a, IN(vec3
   float side = dot(n, w);
   float length2 = dot(n, n);
   float scale = 1.0f / sqrt(length2);
-  t.sided = abs(side) > 2.0f * area_error * norm1(w) && length2 > 1.0e-30f;
+  t.sided = abs(side) > 2.0f * area_error * norm1(w) && length2 > 1.0e-30f && length2 < 1.0e37f;
   t.facing = side > 0.0f;
   t.plane = n * (side < 0.0f ? -scale : scale);
   t.plane_error = 2.0f * area_error * scale + 16.0f * unit_roundoff;

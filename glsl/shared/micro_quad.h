@@ -19,13 +19,23 @@ struct MicroQuad {
   vec2 slope;      // perspective: change of 1/t a pixel, as a share of 1/t; orthographic: 0
   float extent;    // bounds |along_x|_1 + |along_y|_1 and, times 4u, their errors
   float t;         // eye distance of the center
-  bool overhangs;  // wider than its own triangle, whose plane is uncertain that far outside
+  float overhang;  // overhang_of
 };
 
 // In the G-buffer: x: eye distance; yz: slopes of 1/t as a share of 1/t (perspective) or of t (orthographic), a pixel,
-// already shrunk; |w|: the footprint's scale, 1 unless it was shrunk; w < 0: the micro-quad overhangs its triangle.
+// already shrunk; w: the footprint's scale in (0, 1], 1 unless it was shrunk; the last five bits of its mantissa hold the
+// overhang as a power of two.
 // A footprint that reaches the horizon or nearly does is shrunk toward its centre, until every corner's t lies within
 // [1/2, 2] of the centre's. In double: near the horizon the slopes magnify each error.
+SHARED float scale_of(IN(vec4) data) { return uintBitsToFloat(floatBitsToUint(data.w) & ~31u); }
+
+// 0, or half the micro-quad's size over its own triangle's height where that is more than 4, rounded up to a power of two:
+// so far outside its triangle a plane is uncertain.
+SHARED float overhang_of(IN(vec4) data) {
+  uint power = floatBitsToUint(data.w) & 31u;
+  return power == 0u ? 0.0f : uintBitsToFloat((127u + power) << 23);
+}
+
 SHARED vec4 micro_quad_data(IN(CameraFrame) camera, IN(vec2) px, float t, IN(vec3) a, IN(vec3) b, IN(vec3) c) {
   dvec3 e1 = dvec3(b) - dvec3(a);
   dvec3 e2 = dvec3(c) - dvec3(a);
@@ -42,22 +52,25 @@ SHARED vec4 micro_quad_data(IN(CameraFrame) camera, IN(vec2) px, float t, IN(vec
   double steepness = abs(sx) + abs(sy);
   double limit = perspective ? 1.0 : double(t);
   double scale = steepness <= limit ? 1.0 : limit / steepness;
-  if (!(scale > 0.0)) return vec4(t, 0.0f, 0.0f, 1.0e-30f);  // edge-on: the centre alone
-  // Half the footprint's size on the plane against the triangle's smallest height.
-  double width = perspective ? double(t) : 1.0;
-  double rise = perspective ? double(t) : 1.0;
-  double half_x = 0.5 * scale * sqrt(ax * ax * width * width + sx * sx * rise * rise);
-  double half_y = 0.5 * scale * sqrt(ay * ay * width * width + sy * sy * rise * rise);
+  if (!(scale > 0.0)) return vec4(t, 0.0f, 0.0f, 1.0f);  // edge-on: the centre alone
+  // Half the footprint's size on the plane over the triangle's smallest height, as a power of two.
+  double size = perspective ? double(t) : 1.0;
+  double half_x = 0.5 * scale * sqrt(ax * ax * size * size + sx * sx * size * size);
+  double half_y = 0.5 * scale * sqrt(ay * ay * size * size + sy * sy * size * size);
   double longest2 = max(dot(e1, e1), max(dot(e2, e2), dot(e3, e3)));
-  bool overhangs = (half_x + half_y) * sqrt(longest2) > sqrt(dot(n, n));
-  return vec4(t, float(sx * scale), float(sy * scale), overhangs ? -float(scale) : float(scale));
+  double overhang = (half_x + half_y) * sqrt(longest2 / dot(n, n));
+  uint power = 0u;
+  for (double reached = 4.0; reached < overhang && power < 24u; reached *= 2.0) power = max(power + 1u, 3u);
+  float word = uintBitsToFloat((floatBitsToUint(float(scale)) & ~31u) | power);
+  double kept = double(scale_of(vec4(0.0f, 0.0f, 0.0f, word)));
+  return vec4(t, float(sx * kept), float(sy * kept), word);
 }
 
 SHARED MicroQuad make_micro_quad(IN(CameraFrame) camera, IN(ivec2) px, IN(vec4) data) {
   MicroQuad m;
-  float k = abs(data.w);
+  float k = scale_of(data);
   m.t = data.x;
-  m.overhangs = data.w < 0.0f;
+  m.overhang = overhang_of(data);
   m.center = receiver_point(camera, vec2(float(px.x) + 0.5f, float(px.y) + 0.5f), data.x);
   bool perspective = is_perspective(camera);
   float width = perspective ? k * data.x : k;

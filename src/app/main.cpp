@@ -44,6 +44,8 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "izb: {}\n", e.what());
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "izb: not enough memory\n");
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "izb: internal error: {}\n", e.what());
   }
   return exit_failure;
 }

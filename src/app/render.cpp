@@ -74,7 +74,8 @@ void print_table(const nlohmann::json& json) {
   stages.add_row({"frame", fmt::format("{:.2f}", json["frame_ms"].get<double>())});
   fmt::print("{}\n", stages.str());
   Table counts({{"count", Align::left}, {"value"}});
-  for (const auto& [name, value] : json["counts"].items()) counts.add_row({name, value.dump()});
+  for (const auto& [name, value] : json["counts"].items())
+    counts.add_row({name, value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)});
   for (const auto& [name, value] : json["memory_bytes"].items())
     counts.add_row({"memory " + name, fmt::format("{:.1f} MB", value.get<double>() * 1e-6)});
   fmt::print("{}", counts.str());
@@ -83,6 +84,9 @@ void print_table(const nlohmann::json& json) {
 int render(RenderOptions& o) {
   if (o.output.empty() && o.preview.empty() && o.json.empty())
     throw UsageError("nothing to write: give -o FILE.exr, --preview FILE.png or --json FILE.json");
+  if ((!o.output.empty() && (o.output == o.preview || o.output == o.json)) ||
+      (!o.preview.empty() && o.preview == o.json))
+    throw UsageError("-o, --preview and --json must name different files");
   // Opened first: an output that cannot be written is known before the work.
   std::vector<std::unique_ptr<AtomicFile>> probes;
   for (const std::string* path : {&o.output, &o.preview, &o.json})
@@ -106,7 +110,8 @@ int render(RenderOptions& o) {
   probes.clear();
   if (!o.output.empty()) write_exr(o.output, image);
   if (!o.preview.empty()) write_png(o.preview, preview(image));
-  if (!o.json.empty()) write_file_atomically(o.json, json.dump(1) + "\n");
+  if (!o.json.empty())
+    write_file_atomically(o.json, json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   print_table(json);
   for (const std::string* path : {&o.output, &o.preview, &o.json})
     if (!path->empty()) fmt::print("wrote {}\n", *path);

@@ -111,7 +111,9 @@ Image frame_image(const Session& session, const Technique& technique, const nloh
   add_camera(image, session);
   add_light(image, session.frame.light);
   for (const auto& [key, value] : facts.items())
-    image.attributes["izb." + key] = value.is_string() ? value.get<std::string>() : value.dump();
+    image.attributes["izb." + key] = value.is_string()
+                                         ? value.get<std::string>()
+                                         : value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return image;
 }
 

@@ -203,7 +203,7 @@ void print_table(const std::vector<Outcome>& outcomes) {
       const nlohmann::json value = outcome.json.value(nlohmann::json::json_pointer(column.path), nlohmann::json());
       row.push_back(value.is_null()           ? ""
                     : value.is_number_float() ? fmt::format("{:.4f}", value.get<double>())
-                                              : value.dump());
+                                              : value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     }
     table.add_row(row);
   }
@@ -229,7 +229,8 @@ int validate(const ValidateOptions& o) {
   if (!o.json.empty()) {
     nlohmann::json all = nlohmann::json::array();
     for (const Outcome& outcome : outcomes) all.push_back(outcome.json);
-    write_file_atomically(o.json, (all.size() == 1 ? all[0] : all).dump(1) + "\n");
+    write_file_atomically(
+        o.json, (all.size() == 1 ? all[0] : all).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   }
   return good ? 0 : 1;
 }

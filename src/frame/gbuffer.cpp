@@ -71,7 +71,7 @@ void GBufferStage::render(const SceneBuffers& scene, gpu::StageTimers& timers) {
   if (gbuffer_.micro_quad)
     glBindImageTexture(IMAGE_MICRO_QUAD, gbuffer_.micro_quad.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
   resolve_.dispatch(width_px, height_px, 16, 16);
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 
 }  // namespace izb

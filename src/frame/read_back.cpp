@@ -15,6 +15,11 @@ GBufferImage read_gbuffer(const GBuffer& gbuffer) {
   std::vector<glm::uvec2> ids(image.eye_distance.size());
   gbuffer.id.read_bytes(GL_RG_INTEGER, GL_UNSIGNED_INT, ids.size() * sizeof(glm::uvec2), ids.data());
   image.id = top_first(std::move(ids));
+  if (gbuffer.micro_quad) {
+    std::vector<glm::vec4> quads(image.eye_distance.size());
+    gbuffer.micro_quad.read_bytes(GL_RGBA, GL_FLOAT, quads.size() * sizeof(glm::vec4), quads.data());
+    image.micro_quad = top_first(std::move(quads));
+  }
   return image;
 }
 

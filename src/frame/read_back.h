@@ -22,6 +22,7 @@ struct GBufferImage {
   std::vector<float> eye_distance;
   std::vector<glm::vec2> normal;  ///< octahedral
   std::vector<glm::uvec2> id;
+  std::vector<glm::vec4> micro_quad;  ///< shared::micro_quad_data; empty at one sample a pixel
 
   /// The pixel's centre in the shaders' coordinates, which count from the bottom.
   glm::vec2 center_px(size_t i) const {

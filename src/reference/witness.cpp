@@ -118,6 +118,37 @@ bool search_disc(const std::vector<Line>& lines, double band, Differs&& differs)
   return false;
 }
 
+// A triangle's plane close over the point: unit normal towards the light, height over the point.
+struct Lid {
+  glm::dvec3 normal;
+  double height;
+};
+
+// Where several planes are close, as under a fold, the point is lit above all of them: tries the shortest moves to just
+// above each two and each three of the nearest.
+template <typename Differs>
+bool lit_above(std::vector<Lid>& lids, double band, Differs&& differs) {
+  std::sort(lids.begin(), lids.end(),
+            [](const Lid& a, const Lid& b) { return std::abs(a.height) < std::abs(b.height); });
+  const size_t count = std::min<size_t>(lids.size(), 12);
+  const auto tries = [&](const glm::dvec3& move) { return glm::length(move) <= inside_band * band && differs(move); };
+  for (const double above : {1e-3, 0.1})
+    for (size_t i = 0; i < count; ++i)
+      for (size_t j = 0; j < i; ++j) {
+        const glm::dvec3 &m = lids[i].normal, &n = lids[j].normal;
+        const double hm = lids[i].height + above * band, hn = lids[j].height + above * band;
+        const double mn = glm::dot(m, n), det = 1.0 - mn * mn;
+        if (det < 1e-9) continue;
+        if (tries(m * ((hm - hn * mn) / det) + n * ((hn - hm * mn) / det))) return true;
+        for (size_t k = 0; k < j; ++k) {
+          const glm::dmat3 rows = glm::transpose(glm::dmat3(m, n, lids[k].normal));
+          if (std::abs(glm::determinant(rows)) < 1e-6) continue;
+          if (tries(glm::inverse(rows) * glm::dvec3(hm, hn, lids[k].height + above * band))) return true;
+        }
+      }
+  return false;
+}
+
 }  // namespace
 
 bool shadowed_exact(const glm::dvec3& point_vs, std::span<const Corners> occluders, const LightPoint& light) {
@@ -152,13 +183,17 @@ bool truth_changes_within(const glm::dvec3& point_vs, double band, bool truth, s
     return false;
   };
   if (lit_along(frame.to_light)) return true;
+  std::vector<Lid> lids;
   for (const Corners& t : usable) {
-    const glm::dvec3 across = normal(t);
+    const glm::dvec3 a(t.a), normal = glm::cross(glm::dvec3(t.b) - a, glm::dvec3(t.c) - a);
+    const double length = glm::length(normal), height = glm::dot(normal, a - point_vs) / length;
     // A triangle far from the point shadows it with its edges, not with its plane.
-    if (std::abs(glm::dot(across, glm::dvec3(t.a) - point_vs)) > band * glm::length(across)) continue;
-    if (lit_along(across) || lit_along(-across)) return true;
+    if (!(std::abs(height) <= band)) continue;
+    if (lit_along(normal) || lit_along(-normal)) return true;
+    const double side = glm::dot(normal, frame.to_light) < 0.0 ? -1.0 : 1.0;
+    lids.push_back({normal * (side / length), height * side});
   }
-  return false;
+  return lit_above(lids, band, [&](const glm::dvec3& move) { return differs(point_vs + move); });
 }
 
 double nearest_edge_distance(const glm::dvec3& point_vs, std::span<const Corners> occluders, const LightPoint& light) {

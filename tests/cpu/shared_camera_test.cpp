@@ -93,12 +93,16 @@ TEST(SharedBounds, AWindowWithoutExtentIsStillFinite) {
   EXPECT_TRUE(std::isfinite(g.x) && std::isfinite(g.y) && std::isfinite(g.z) && std::isfinite(w.guard.x));
 }
 
-TEST(SharedLists, ANodesAddressIsItsPixel) {
-  for (const glm::ivec2 px : {glm::ivec2(0, 0), glm::ivec2(65533, 0), glm::ivec2(0, 65534), glm::ivec2(1919, 1079)}) {
-    EXPECT_NE(shared::node_from_pixel(px), shared::no_node);
-    EXPECT_LT(shared::node_from_pixel(px), shared::not_a_node(0u));
-    EXPECT_EQ(shared::pixel_from_node(shared::node_from_pixel(px)), px);
-  }
+TEST(SharedLists, ANodesAddressIsItsPixelAndSlot) {
+  const int last = shared::largest_picture_px - 1;
+  for (const glm::ivec2 px : {glm::ivec2(0, 0), glm::ivec2(last, 0), glm::ivec2(0, last), glm::ivec2(last, last)})
+    for (const int slot : {0, 3, 7}) {
+      const uint32_t node = shared::node_from_pixel(px, slot);
+      EXPECT_NE(node, shared::no_node);
+      EXPECT_LT(node, shared::not_a_node(0u));
+      EXPECT_EQ(shared::pixel_from_node(node), px);
+      EXPECT_EQ(shared::slot_from_node(node), slot);
+    }
 }
 
 }  // namespace

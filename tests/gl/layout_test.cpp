@@ -11,6 +11,7 @@
 #include "gpu/program.h"
 #include "shadow/renderer.h"
 #include "shared/bounds.h"
+#include "shared/micro_quad.h"
 #include "shared/pairs.h"
 
 namespace {
@@ -69,21 +70,31 @@ const std::map<std::string, Block> blocks{
        FIELD("shade", ShadeFrame, sky_zenith), FIELD("shade", ShadeFrame, ground), FIELD("shade", ShadeFrame, cone)}}},
     {"WindowBlock",
      {sizeof(LightWindow),
-      false,
-      {FIELD("window", LightWindow, window), FIELD("window", LightWindow, depth),
-       FIELD("window", LightWindow, guard)}}},
+      true,
+      {FIELD("windows[0]", LightWindow, window), FIELD("windows[0]", LightWindow, depth),
+       FIELD("windows[0]", LightWindow, guard)}}},
     {"BoundsBlock",
      {sizeof(ReceiverBounds),
+      true,
+      {FIELD("all_bounds[0]", ReceiverBounds, low), FIELD("all_bounds[0]", ReceiverBounds, high),
+       FIELD("all_bounds[0]", ReceiverBounds, slack)}}},
+    {"CascadeBlock",
+     {sizeof(CascadeRange),
       false,
-      {FIELD("bounds", ReceiverBounds, low), FIELD("bounds", ReceiverBounds, high),
-       FIELD("bounds", ReceiverBounds, slack)}}},
+      {FIELD("range", CascadeRange, reached), {"range.ends[0]", {offsetof(CascadeRange, ends), GL_FLOAT_VEC4}}}}},
+    {"SampleBlock",
+     {sizeof(SampleFrame),
+      false,
+      {{"samples.offset_px[0]", {offsetof(SampleFrame, offset_px), GL_FLOAT_VEC4}},
+       FIELD("samples", SampleFrame, info)}}},
+    {"PoolBlock", {sizeof(uint), false, {{"pool_nodes", {0, GL_UNSIGNED_INT}}}}},
     {"CounterBlock",
      {sizeof(Counters),
       false,
       {FIELD("counters", Counters, pairs), FIELD("counters", Counters, capacity),
        FIELD("counters", Counters, fragments), FIELD("counters", Counters, visibility_tests),
-       FIELD("counters", Counters, triangles), FIELD("counters", Counters, unused0),
-       FIELD("counters", Counters, unused1), FIELD("counters", Counters, unused2)}}},
+       FIELD("counters", Counters, triangles), FIELD("counters", Counters, removed),
+       FIELD("counters", Counters, unchanged), FIELD("counters", Counters, unused)}}},
     {"InstanceBlock",
      {sizeof(InstanceFrame),
       true,

@@ -72,7 +72,7 @@ void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
 #ifdef BY_SAMPLES
   int count = 32;
 #else
-  float texels;
+  float texels = 1.0;
   vec2 axis = longest_axis(on_grid, texels);
 #ifdef BY_VIEW
   // The footprint is 1 / N.V times as long as wide, along the slope of the tangent plane.

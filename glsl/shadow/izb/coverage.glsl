@@ -65,7 +65,7 @@ uint classify_quad(CameraFrame eye, QuadTriangle t, MicroQuad quad, out bool uns
   Sides e2 = edge_sides(t.edge2, quad, edges_unsure);
   vec3 q = t.corner - quad.center;
   vec3 height = quad_line(t.plane, q, quad);
-  float bias = quad_bias(eye, quad.center, quad.t, t.vertex_norm1, quad.overhangs);
+  float bias = quad_bias(eye, quad.center, quad.t, t.vertex_norm1, quad.overhang);
   height -= bias * vec3(1.0, quad.slope);
   Sides h = sides_of(height, line_error(t.plane_error, q, quad), plane_unsure);
   if (!t.sided) h = Sides(0u, 0u);

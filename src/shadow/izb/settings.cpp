@@ -44,12 +44,13 @@ std::vector<std::string> IzbSettings::preset_names() {
 
 void IzbSettings::apply(const std::string& preset) {
   if (preset == "paper") {  // table 1: four cascades of 2048 x 2048, every optimisation of section 6
-    sampling.pattern = "halton";
+    sampling = {"32", "halton"};
     lut = "32";
     cascades = 4;
     cascade_pass = "multiple";
     removal = unchanged_skip = pipelining = true;
   } else if (preset == "exact") {
+    sampling.spp = "32";
     coverage = insertion = "exact";
     pair_capacity = 1 << 22;
   } else {

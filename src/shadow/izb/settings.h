@@ -11,13 +11,13 @@
 namespace izb {
 
 struct IzbSettings {
-  SampleOptions sampling;
+  SampleOptions sampling{"1", "hammersley"};
   std::string coverage = "lut", lut = "64", insertion = "approximate", cascade_pass = "single", raster = "gs";
   int grid = 2048, nodes = 8, cascades = 1;
   double dilation_texels = 1.0;
   bool zcull = true, zcull_pyramid = true, nl_cull = true;
   bool removal = false, unchanged_skip = false, pipelining = false;
-  int pair_capacity = 1 << 20;
+  int pair_capacity = 1 << 17;
 
   /// Declares every option, bound to this object.
   OptionSet options();

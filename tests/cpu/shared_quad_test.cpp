@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+// The text of the 32-sample test that GLSL and C++ share: look-up table, edge planes, double-precision definition,
+// insertion.
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "reference/exact.h"
+#include "shared/coverage.h"
+#include "shared/insertion.h"
+#include "shared/table.h"
+#include "shared_fixture.h"
+
+namespace izb::test {
+namespace {
+
+/// Halton (2, 3).
+std::vector<glm::vec2> offsets() {
+  std::vector<glm::vec2> all;
+  const auto inverse = [](unsigned i, unsigned base) {
+    double value = 0.0, digit = 1.0 / base;
+    for (; i > 0; i /= base, digit /= base) value += digit * (i % base);
+    return value - 0.5;
+  };
+  for (unsigned i = 1; i <= 32; ++i) all.emplace_back(inverse(i, 2), inverse(i, 3));
+  return all;
+}
+
+uint32_t positive_bits(const glm::dvec3& line) {
+  uint32_t bits = 0;
+  const std::vector<glm::vec2> all = offsets();
+  for (size_t s = 0; s < all.size(); ++s)
+    if (line.x + double(all[s].x) * line.y + double(all[s].y) * line.z >= 0.0) bits |= 1u << s;
+  return bits;
+}
+
+TEST(SharedTable, ABinsCentreFallsIntoTheBin) {
+  for (const int side : {32, 64, 128})
+    for (int entry = 0; entry < side * side; ++entry)
+      ASSERT_EQ(shared::table_entry(shared::table_line(entry, side), side), entry) << side;
+}
+
+TEST(SharedTable, ErrsOnlyNearTheLineAndByAsManyBitsAsMeasuredElsewhere) {
+  // Mean wrong bits a half-plane whose line crosses the pixel, for tables over angle and distance: 0.52, 0.26, 0.13.
+  const std::pair<int, double> sizes[] = {{32, 0.52}, {64, 0.26}, {128, 0.13}};
+  for (const auto& [side, expected] : sizes) {
+    Random random(90);
+    int lines = 0, wrong = 0;
+    for (int i = 0; i < 40000; ++i) {
+      const double angle = random.uniform(0.0, 6.28318530718);
+      const glm::vec3 line(random.uniform(-0.7, 0.7), std::cos(angle), std::sin(angle));
+      const int entry = shared::table_entry(line, side);
+      const uint32_t truth = positive_bits(line);
+      if (entry < 0) {
+        ASSERT_EQ(truth, entry == shared::table_all ? ~0u : 0u);
+        continue;
+      }
+      const uint32_t differing = positive_bits(shared::table_line(entry, side)) ^ truth;
+      ++lines;
+      wrong += std::popcount(differing);
+      const double size = std::abs(line.y) + std::abs(line.z);
+      for (int s = 0; s < 32; ++s)
+        if (differing >> s & 1u) {
+          const glm::vec2 o = offsets()[size_t(s)];
+          // Half a bin of offset, and half a bin of direction at both coordinates of the sample.
+          ASSERT_LE(std::abs(line.x + o.x * line.y + o.y * line.z) / size, 2.5 / side + 1e-6);
+        }
+    }
+    EXPECT_NEAR(double(wrong) / lines, expected, 0.3 * expected) << side;
+  }
+}
+
+TEST(SharedTable, OppositeLinesHaveComplementaryBits) {
+  Random random(91);
+  for (int i = 0; i < 20000; ++i) {
+    const double angle = random.uniform(0.0, 6.28318530718);
+    const glm::vec3 line(random.uniform(-0.7, 0.7), std::cos(angle), std::sin(angle));
+    const int here = shared::table_entry(line, 64), there = shared::table_entry(-line, 64);
+    if (here < 0) {
+      ASSERT_LT(there, 0);
+      continue;
+    }
+    ASSERT_GE(there, 0);
+    const glm::vec3 a = shared::table_line(here, 64), b = shared::table_line(there, 64);
+    ASSERT_LT(glm::length(a + b), 1e-5f);
+  }
+}
+
+TEST(SharedCoverage, TrianglesThatShareAnEdgeGetOneLineWithTwoSides) {
+  Random random(92);
+  const glm::dvec3 lamp(1.0, 8.0, -3.0);
+  for (int i = 0; i < 2000; ++i) {
+    const shared::LightFrame light = make_light(random.direction(), i % 2 ? &lamp : nullptr);
+    const glm::vec3 a(random.point(5.0)), b(random.point(5.0));
+    const shared::EdgePlane one = shared::make_edge_plane(light, a, b), other = shared::make_edge_plane(light, b, a);
+    ASSERT_EQ(one.first, other.first);
+    ASSERT_EQ(one.normal, other.normal);
+    ASSERT_NE(one.swapped, other.swapped);
+  }
+}
+
+/// A receiver on the plane of a random triangle, and its micro-quad.
+struct Pixel {
+  glm::ivec2 px;
+  glm::vec4 data;
+  glm::vec3 corner[3];
+};
+
+Pixel random_pixel(Random& random, const shared::CameraFrame& camera) {
+  for (;;) {
+    Pixel p;
+    p.px = {int(random.below(1920)), int(random.below(1080))};
+    const glm::vec3 q = shared::receiver_point(camera, glm::vec2(p.px) + 0.5f, float(random.uniform(3.0, 30.0)));
+    glm::vec3 normal(random.direction());
+    if (random.below(4) == 0) normal = glm::normalize(normal - q * (glm::dot(normal, q) / glm::dot(q, q)) * 0.999f);
+    const glm::vec3 u = glm::normalize(glm::cross(normal, glm::vec3(0.3f, 0.5f, 0.8f))), v = glm::cross(normal, u);
+    p.corner[0] = q + u, p.corner[1] = q - 0.6f * u + v, p.corner[2] = q - 0.4f * u - v;
+    const glm::dvec3 n = glm::cross(glm::dvec3(p.corner[1]) - glm::dvec3(p.corner[0]),
+                                    glm::dvec3(p.corner[2]) - glm::dvec3(p.corner[0]));
+    const double t = glm::dot(n, glm::dvec3(p.corner[0])) / glm::dot(n, glm::dvec3(q) / double(-q.z));
+    if (!(t > 1.0 && t < 60.0)) continue;
+    p.data = shared::micro_quad_data(camera, glm::vec2(p.px) + 0.5f, float(t), p.corner[0], p.corner[1], p.corner[2]);
+    return p;
+  }
+}
+
+TEST(SharedMicroQuad, CornersStayWithinTwiceTheCentresDistanceAndOnThePlane) {
+  Random random(93);
+  const shared::CameraFrame camera = perspective_camera();
+  int shrunk = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Pixel p = random_pixel(random, camera);
+    const shared::MicroQuad quad = shared::make_micro_quad(camera, p.px, p.data);
+    shrunk += shared::scale_of(p.data) < 1.0f;
+    const glm::dvec3 a(p.corner[0]);
+    const glm::dvec3 n = glm::normalize(glm::cross(glm::dvec3(p.corner[1]) - a, glm::dvec3(p.corner[2]) - a));
+    for (int k = 0; k < 4; ++k) {
+      const glm::vec3 at = shared::micro_quad_point(quad, shared::corner_offset(k));
+      EXPECT_LE(-at.z, 2.0001f * quad.t);
+      EXPECT_GE(-at.z, 0.4999f * quad.t);
+      EXPECT_LT(std::abs(glm::dot(n, glm::dvec3(at) - a)), 2e-6 * shared::norm1(at));
+    }
+  }
+  EXPECT_GT(shrunk, 5);
+}
+
+TEST(SharedCoverage, IsTheExactPredicateAtEachSampleButForTheBias) {
+  Random random(94);
+  const shared::CameraFrame camera = perspective_camera();
+  const glm::dvec3 lamp(1.0, 12.0, -8.0);
+  const std::vector<glm::vec2> all = offsets();
+  int occluded = 0, partly = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Pixel p = random_pixel(random, camera);
+    const shared::LightFrame light = make_light(random.direction(), i % 3 == 0 ? &lamp : nullptr);
+    const shared::MicroQuad quad = shared::make_micro_quad(camera, p.px, p.data);
+    const bool positional = shared::is_positional(light);
+    const reference::LightPoint point{positional ? glm::vec3(light.origin) : glm::vec3(light.to_light), positional};
+    // Triangles whose shadow has an edge or a corner near the pixel.
+    const glm::dvec3 way = positional ? lamp - glm::dvec3(quad.center) : glm::dvec3(glm::vec3(light.to_light));
+    const double pixel = shared::pixel_width(camera, quad.t);
+    const auto near = [&] {
+      return glm::vec3(glm::dvec3(quad.center) + way * random.uniform(0.1, 0.6) + random.point(pixel * 3));
+    };
+    const glm::vec3 a = near(), b = near(), c = near();
+    const shared::QuadPlanes planes = shared::quad_planes(camera, light, a, b, c, p.px, p.data);
+    int inside = 0;
+    for (const glm::vec2 o : all) {
+      const glm::dvec3 at =
+          glm::dvec3(quad.center) + (glm::dvec3(quad.along_x) * double(o.x) + glm::dvec3(quad.along_y) * double(o.y)) /
+                                        (1.0 + double(o.x) * quad.slope.x + double(o.y) * quad.slope.y);
+      const bool ours = shared::occluded_sample(planes, o);
+      inside += ours;
+      if (ours == reference::occluded_exact(at, {a, b, c}, point)) continue;
+      // The float micro-quad here is off by some 1e-7 of its size; and the plane is biased.
+      const double slack = 1e-5 * pixel + 2.0 * shared::quad_bias(camera, quad.center, quad.t,
+                                                                  shared::max_norm1(a, b, c), quad.overhang);
+      bool changes = std::abs(reference::plane_distance(at, {a, b, c}, point)) < slack;
+      for (int k = 0; k < 64 && !changes; ++k)
+        changes = reference::occluded_exact(at + random.direction() * slack, {a, b, c}, point) == ours;
+      EXPECT_TRUE(changes) << i;
+    }
+    occluded += inside;
+    partly += inside > 0 && inside < 32;
+  }
+  EXPECT_GT(occluded, 2000);
+  EXPECT_GT(partly, 200);
+}
+
+TEST(SharedInsertion, ExactInsertionCoversEveryTexelThatAPointOfTheMicroQuadFallsInto) {
+  Random random(95);
+  const shared::CameraFrame camera = perspective_camera();
+  size_t texels = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Pixel p = random_pixel(random, camera);
+    const shared::LightFrame light = make_light(random.direction(), nullptr, 64u << random.below(6));
+    const shared::MicroQuad quad = shared::make_micro_quad(camera, p.px, p.data);
+    // A window in which the micro-quad is between a fraction of a texel and some twenty texels wide.
+    const glm::vec3 at = shared::light_uvd(light, shared::light_position(light, quad.center));
+    shared::LightWindow window{};
+    const float scale = float(random.uniform(0.05, 20.0)) / quad.extent;
+    const float side = float(light.grid.x);
+    window.window =
+        glm::vec4(at.x - float(random.uniform(0.2, 0.8)) * side / scale, at.y - 0.5f * side / scale, scale, scale);
+    window.guard.x = shared::quad_uv_error(light, quad, at) * scale + 8.0f * shared::unit_roundoff * side;
+    const shared::QuadOnGrid on_grid = shared::project_quad(light, window, quad);
+    const int last = int(light.grid.x) - 1;
+    const float guard = window.guard.x + 0.001f;
+    const glm::ivec2 rows = shared::quad_rows(on_grid, guard, last);
+    for (int y = rows.x; y <= rows.y; ++y) {
+      const glm::ivec2 columns = shared::quad_columns(on_grid, guard, last, y);
+      texels += size_t(std::max(columns.y - columns.x + 1, 0));
+    }
+    for (int k = 0; k < 60; ++k) {
+      const glm::dvec2 o = k < 4 ? glm::dvec2(shared::corner_offset(k))
+                                 : glm::dvec2(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5));
+      const glm::dvec3 q = glm::dvec3(quad.center) + (glm::dvec3(quad.along_x) * o.x + glm::dvec3(quad.along_y) * o.y) /
+                                                         (1.0 + o.x * quad.slope.x + o.y * quad.slope.y);
+      const double u = glm::dot(glm::dvec3(glm::vec3(light.axis_x)), q),
+                   v = glm::dot(glm::dvec3(glm::vec3(light.axis_y)), q);
+      const int x = std::clamp(int(std::floor((u - window.window.x) * window.window.z)), 0, last);
+      const int y = std::clamp(int(std::floor((v - window.window.y) * window.window.w)), 0, last);
+      ASSERT_GE(y, rows.x);
+      ASSERT_LE(y, rows.y);
+      const glm::ivec2 columns = shared::quad_columns(on_grid, guard, last, y);
+      ASSERT_GE(x, columns.x) << i;
+      ASSERT_LE(x, columns.y) << i;
+    }
+  }
+  // Tight: an axis-aligned box alone would hold about twice as many.
+  EXPECT_LT(texels, size_t(3000) * 120);
+}
+
+}  // namespace
+}  // namespace izb::test
