@@ -176,6 +176,17 @@ TEST(SharedOcclusion, DegenerateAndEdgeOnTrianglesCastNothing) {
   EXPECT_TRUE(shared::occludes(camera, light, a, b, glm::vec3(0, 1, -7), p, 5.0f));
 }
 
+TEST(SharedOcclusion, AHugeTriangleIsNeverCalledOut) {
+  // The square of its normal overflows: the plane's side must then be left to double precision.
+  const shared::CameraFrame camera = perspective_camera();
+  const shared::LightFrame light = make_light({0, -1, 0}, nullptr);
+  for (const float size : {1.0e3f, 1.0e9f, 1.0e10f, 1.0e12f}) {
+    const glm::vec3 a(-size, size, -size), b(size, size, -size), c(0, size, size), p(0, 0, -1);
+    ASSERT_TRUE(shared::occludes(camera, light, a, b, c, p, 1.0f)) << size;
+    EXPECT_NE(shared::classify(camera, shared::make_planes(light, a, b, c), p, 1.0f), shared::pair_out) << size;
+  }
+}
+
 TEST(SharedOcclusion, ASpotIsNotShadowedFromBehindOrBeyond) {
   const shared::CameraFrame camera = perspective_camera();
   const glm::dvec3 lamp(0, 3, -10);
