@@ -64,7 +64,7 @@ void GBufferStage::render(const SceneBuffers& scene, gpu::StageTimers& timers) {
   glBindImageTexture(IMAGE_EYE_DISTANCE, gbuffer_.eye_distance.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
   glBindImageTexture(IMAGE_NORMAL, gbuffer_.normal.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32F);
   resolve_.dispatch(width_px, height_px, 16, 16);
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);  // sampled, and read back
 }
 
 }  // namespace izb
