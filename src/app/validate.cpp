@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // izb validate: a technique's mask against rays from the same points, disputed bits settled exactly.
 #include <CLI/CLI.hpp>
+#include <optional>
+#include <span>
 
 #include "app/commands.h"
 #include "app/results.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_text.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/table.h"
@@ -86,15 +89,19 @@ Outcome validate_scene(const ValidateOptions& o, const std::string& scene_path) 
   const reference::Triangles triangles{in.triangles_vs()};
   const reference::LightPoint light = make_light_point(in.light);
 
-  Progress progress("validating " + scene_path, 4);
+  Progress progress("building the ray tracer of " + scene_path, 4);
   const reference::RayTracer tracer(triangles);
   progress.advance();
+  progress.relabel("tracing " + scene_path);
   const reference::MaskTrace traced = tracer.trace_mask(light, receivers);
   progress.advance();
+  progress.relabel("settling disputed bits of " + scene_path);
   const reference::Settled settled = reference::settle(triangles, light, receivers, mask, traced.mask);
   progress.advance();
+  progress.relabel("checking the points of " + scene_path);
 
   Outcome outcome{scene_path, provenance(s, frame, *o.technique, o.arguments, scene_path)};
+  outcome.json["options"]["points"] = o.points;
   outcome.json["mask_hash"] = mask_hash(mask);
   outcome.json["pixels"] = mask.size();
   outcome.json["compared"] = settled.compared;
@@ -155,18 +162,34 @@ void print_table(const std::vector<Outcome>& outcomes) {
 }
 
 int validate(const ValidateOptions& o) {
+  // Opened first: an output that cannot be written is known before the work.
+  std::optional<AtomicFile> text;
+  if (!o.json.empty()) text.emplace(o.json);
   std::vector<Outcome> outcomes;
+  std::vector<std::string> failures;
   bool good = true;
   for (const std::string& scene : o.scenes) {
-    outcomes.push_back(validate_scene(o, scene));
+    try {
+      outcomes.push_back(validate_scene(o, scene));
+    } catch (const UsageError&) {
+      throw;
+    } catch (const Error& e) {
+      failures.push_back(e.what());  // the others' results may take hours: they are not lost
+      continue;
+    }
     const nlohmann::json& json = outcomes.back().json;
     good &= json["unexplained"] == 0 && (!json.contains("points") || json["points"]["wrong"] == 0);
   }
-  print_table(outcomes);
-  if (!o.json.empty()) {
+  if (!outcomes.empty()) print_table(outcomes);
+  std::fflush(stdout);
+  for (const std::string& failure : failures) note("{}", failure);
+  if (!failures.empty()) return 1;
+  if (text) {
     nlohmann::json all = nlohmann::json::array();
     for (const Outcome& outcome : outcomes) all.push_back(outcome.json);
-    write_file_atomically(o.json, (all.size() == 1 ? all[0] : all).dump(1) + "\n");
+    const std::string json_file = json_text(all.size() == 1 ? all[0] : all, 1) + "\n";
+    text->write(std::as_bytes(std::span(json_file)));
+    text->commit();
   }
   return good ? 0 : 1;
 }
@@ -181,6 +204,7 @@ Command add_validate(CLI::App& app, const Arguments& arguments) {
   sub->add_option("SCENE", o->scenes, "one or more .gltf or .glb files")->required();
   o->options().add_to(*sub, "Output");
   o->frame.options().add_to(*sub, "Frame");
+  sub->get_option("--fov")->needs(sub->get_option("--eye"));
   o->technique->options().add_to(*sub, "Technique " + o->technique->info().name);
   sub->footer(
       "With --viewpoint auto each scene takes the view that is named after its file.\n"
