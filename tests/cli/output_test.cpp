@@ -229,7 +229,7 @@ TEST_F(Output, ValidateFailsOnAPlantedError) {
   if (outcome.says("Embree") && outcome.code == 1) GTEST_SKIP() << "this build has no Embree";
   EXPECT_EQ(outcome.code, 1) << outcome.err;
   const nlohmann::json j = read_json(json);
-  EXPECT_GT(j["unexplained"], 50);
+  EXPECT_GE(j["unexplained"], 10);  // all of the roof's shadow
   EXPECT_EQ(j["unexplained"], j["leaks"]);
 }
 

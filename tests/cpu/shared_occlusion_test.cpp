@@ -181,9 +181,11 @@ TEST(SharedOcclusion, AHugeTriangleIsNeverCalledOut) {
   const shared::CameraFrame camera = perspective_camera();
   const shared::LightFrame light = make_light({0, -1, 0}, nullptr);
   for (const float size : {1.0e3f, 1.0e9f, 1.0e10f, 1.0e12f}) {
-    const glm::vec3 a(-size, size, -size), b(size, size, -size), c(0, size, size), p(0, 0, -1);
-    ASSERT_TRUE(shared::occludes(camera, light, a, b, c, p, 1.0f)) << size;
-    EXPECT_NE(shared::classify(camera, shared::make_planes(light, a, b, c), p, 1.0f), shared::pair_out) << size;
+    // Ten sizes away, where the bias exceeds the rounding of a height: a plane of zeros would pass for one below it.
+    const float z = -10.0f * size;
+    const glm::vec3 a(-size, size, z - size), b(size, size, z - size), c(0, size, z + size), p(0, 0, z);
+    ASSERT_TRUE(shared::occludes(camera, light, a, b, c, p, -z)) << size;
+    EXPECT_NE(shared::classify(camera, shared::make_planes(light, a, b, c), p, -z), shared::pair_out) << size;
   }
 }
 
