@@ -148,10 +148,10 @@ class VirtualDisplay {
       _exit(127);
     }
     close(ends[1]);
-    char digits[16];
-    const ssize_t got = read(ends[0], digits, sizeof digits);
+    std::string digits;
+    for (char c; read(ends[0], &c, 1) == 1 && c != '\n';) digits += c;
     close(ends[0]);
-    if (got > 1) name_ = ":" + std::string(digits, size_t(got) - 1);
+    if (!digits.empty()) name_ = ":" + digits;
   }
   ~VirtualDisplay() {
     if (server_ <= 0) return;
