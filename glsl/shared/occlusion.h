@@ -127,8 +127,8 @@ SHARED TrianglePlanes make_planes(IN(LightFrame) light, IN(vec3) a, IN(vec3) b, 
   float area_error = edge_error_of(eab, eca);
   float side = dot(n, wa);
   float length2 = dot(n, n);
-  t.sided = abs(side) > 2.0f * area_error * norm1(wa) && length2 > 1.0e-30f &&
-            length2 < 1.0e37f;  // denormals keep no relative accuracy, overflow none at all
+  // Denormals keep no relative accuracy; what overflows to infinity would make the plane 0 and all heights too low.
+  t.sided = abs(side) > 2.0f * area_error * norm1(wa) && length2 > 1.0e-30f && length2 < 1.0e37f;
   float scale = 1.0f / sqrt(length2);
   t.plane = n * (side < 0.0f ? -scale : scale);
   // The unit normal is off by area_error * scale and a few u from scaling.

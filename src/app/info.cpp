@@ -26,8 +26,10 @@ const char* word(LightType type) {
 void print_gl(const std::string& context_name) {
   const Gl gl(context_name);
   Table table({{"OpenGL", Align::left}, {"", Align::left}});
+  const std::string platform = gl.context.context->platform();
+  const std::string taken = platform.empty() ? "taken" : fmt::format("taken (platform: {})", platform);
   for (const gpu::ContextAttempt& attempt : gl.context.attempts)
-    table.add_row({"context " + attempt.name, attempt.failure.empty() ? "taken" : attempt.failure});
+    table.add_row({"context " + attempt.name, attempt.failure.empty() ? taken : attempt.failure});
   for (const auto& [name, value] : gpu::describe(gl.capabilities)) table.add_row({name, value});
   table.add_row({"ray tracer", reference::embree_version()});
   fmt::print("{}", table.str());

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <new>
 
 #include "app/commands.h"
 #include "base/error.h"
+#include "base/file.h"
 #include "base/version.h"
 
 namespace {
@@ -25,7 +27,10 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : exit_usage;
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    std::string sentence = e.what();
+    std::replace(sentence.begin(), sentence.end(), '\n', ' ');
+    throw izb::UsageError(sentence);
   }
   for (const auto& [name, command] : commands)
     if (app.got_subcommand(name)) return command();
@@ -35,6 +40,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  izb::remove_temporaries_on_signals();
   try {
     return run(argc, argv);
   } catch (const izb::UsageError& e) {
@@ -45,7 +51,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "izb: not enough memory\n");
   } catch (const std::exception& e) {
-    fmt::print(stderr, "izb: internal error: {}\n", e.what());
+    fmt::print(stderr, "izb: unexpected failure: {}\n", e.what());
   }
   return exit_failure;
 }

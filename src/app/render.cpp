@@ -2,12 +2,17 @@
 // izb render: one frame as OpenEXR, PNG and JSON.
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
 
 #include "app/commands.h"
 #include "app/peer.h"
 #include "app/results.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_text.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/table.h"
@@ -74,27 +79,40 @@ void print_table(const nlohmann::json& json) {
   stages.add_row({"frame", fmt::format("{:.2f}", json["frame_ms"].get<double>())});
   fmt::print("{}\n", stages.str());
   Table counts({{"count", Align::left}, {"value"}});
-  for (const auto& [name, value] : json["counts"].items())
-    counts.add_row({name, value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)});
+  for (const auto& [name, value] : json["counts"].items()) counts.add_row({name, json_text(value)});
   for (const auto& [name, value] : json["memory_bytes"].items())
     counts.add_row({"memory " + name, fmt::format("{:.1f} MB", value.get<double>() * 1e-6)});
   fmt::print("{}", counts.str());
 }
 
+/// A device (/dev/null) may take several outputs, a file one.
+void refuse_one_file_for_two(const RenderOptions& o) {
+  namespace fs = std::filesystem;
+  std::map<fs::path, const char*> taken;
+  for (const auto& [option, path] :
+       {std::pair{"--output", &o.output}, {"--preview", &o.preview}, {"--json", &o.json}}) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(*path, ignored);
+    if (path->empty() || (fs::exists(status) && !fs::is_regular_file(status))) continue;
+    const auto [other, is_new] = taken.try_emplace(fs::weakly_canonical(*path, ignored), option);
+    if (!is_new) throw UsageError(fmt::format("{} and {} name the same file, '{}'", other->second, option, *path));
+  }
+}
+
 int render(RenderOptions& o) {
   if (o.output.empty() && o.preview.empty() && o.json.empty())
     throw UsageError("nothing to write: give -o FILE.exr, --preview FILE.png or --json FILE.json");
-  if ((!o.output.empty() && (o.output == o.preview || o.output == o.json)) ||
-      (!o.preview.empty() && o.preview == o.json))
-    throw UsageError("-o, --preview and --json must name different files");
+  refuse_one_file_for_two(o);
   // Opened first: an output that cannot be written is known before the work.
-  std::vector<std::unique_ptr<AtomicFile>> probes;
-  for (const std::string* path : {&o.output, &o.preview, &o.json})
-    if (!path->empty()) probes.push_back(std::make_unique<AtomicFile>(*path));
+  std::optional<AtomicFile> exr, png, text;
+  if (!o.output.empty()) exr.emplace(o.output);
+  if (!o.preview.empty()) png.emplace(o.preview);
+  if (!o.json.empty()) text.emplace(o.json);
   Session s(o.frame, *o.technique, o.scene);
   const Timed timed = render_frames(s, o);
 
   nlohmann::json json = provenance(s, o.frame, *o.technique, o.arguments, o.scene);
+  json["options"].update(o.options().to_json());
   const std::vector<uint32_t> mask = read_mask(s.renderer.mask());
   json["mask_hash"] = mask_hash(mask);
   json["stages"] = stages_json(s.timers);
@@ -107,11 +125,15 @@ int render(RenderOptions& o) {
   if (std::none_of(depth.begin(), depth.end(), [](float d) { return d > 0.0f; }))
     warn("no triangle of '{}' is in view: the picture shows the sky", o.scene);
 
-  probes.clear();
-  if (!o.output.empty()) write_exr(o.output, image);
-  if (!o.preview.empty()) write_png(o.preview, preview(image));
-  if (!o.json.empty())
-    write_file_atomically(o.json, json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  // All are on the disk before the first appears, so that a full one leaves none.
+  if (exr) write_exr(*exr, image);
+  if (png) write_png(*png, preview(image));
+  const std::string json_file = json_text(json, 1) + "\n";
+  if (text) text->write(std::as_bytes(std::span(json_file)));
+  for (std::optional<AtomicFile>* file : {&exr, &png, &text})
+    if (*file) (*file)->close();
+  for (std::optional<AtomicFile>* file : {&exr, &png, &text})
+    if (*file) (*file)->commit();
   print_table(json);
   for (const std::string* path : {&o.output, &o.preview, &o.json})
     if (!path->empty()) fmt::print("wrote {}\n", *path);
@@ -129,6 +151,7 @@ Command add_render(CLI::App& app, const Arguments& arguments) {
   sub->add_option("-o,--output", o->output, "write the frame as OpenEXR")->type_name("FILE");
   o->options().add_to(*sub, "Output");
   o->frame.options().add_to(*sub, "Frame");
+  sub->get_option("--fov")->needs(sub->get_option("--eye"));
   o->technique->options().add_to(*sub, "Technique " + o->technique->info().name);
   return [o] { return render(*o); };
 }

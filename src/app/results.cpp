@@ -6,6 +6,7 @@
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/json_text.h"
 #include "base/log.h"
 #include "base/sha256.h"
 #include "base/version.h"
@@ -45,9 +46,11 @@ void add_light(Image& image, const Light& light) {
   const bool spot = light.type == LightType::spot;
   image.attributes["light.type"] = std::string(spot ? "spot" : "directional");
   image.attributes["light.direction"] = triple(light.direction_ws);
+  image.attributes["light.color"] = triple(glm::dvec3(light.color));
   if (spot) {
     image.attributes["light.position"] = triple(light.position_ws);
     image.attributes["light.halfAngleDegrees"] = float(glm::degrees(light.outer_cone_rad));
+    image.attributes["light.innerHalfAngleDegrees"] = float(glm::degrees(light.inner_cone_rad));
   }
 }
 
@@ -111,9 +114,7 @@ Image frame_image(const Session& session, const Technique& technique, const nloh
   add_camera(image, session);
   add_light(image, session.frame.light);
   for (const auto& [key, value] : facts.items())
-    image.attributes["izb." + key] = value.is_string()
-                                         ? value.get<std::string>()
-                                         : value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    image.attributes["izb." + key] = value.is_string() ? value.get<std::string>() : json_text(value);
   return image;
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/progress.h"
 #include "scene/gltf.h"
 
 namespace izb {
@@ -39,8 +40,17 @@ Gl::Gl(const std::string& context_name)
   if (std::getenv("IZB_GL_DEBUG")) gpu::enable_debug_messages();
 }
 
+namespace {
+
+Scene load_with_progress(const std::string& path) {
+  const Progress progress("loading " + path, 0);
+  return load_gltf(path);
+}
+
+}  // namespace
+
 Session::Session(const FrameOptions& options, Technique& technique, const std::string& scene_path)
-    : scene(load_gltf(scene_path)),
+    : scene(load_with_progress(scene_path)),
       frame(choose_frame(options, scene)),
       gl(options.context),
       renderer(scene, gl.capabilities),

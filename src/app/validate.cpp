@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // izb validate: a technique's mask against rays from the same points, disputed bits settled exactly.
 #include <CLI/CLI.hpp>
+#include <optional>
+#include <span>
 
 #include "app/attribution.h"
 #include "app/commands.h"
@@ -8,6 +10,7 @@
 #include "app/verdict_picture.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_text.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/table.h"
@@ -132,16 +135,20 @@ Outcome validate_scene(const ValidateOptions& o, const std::string& scene_path) 
   const reference::LightPoint light = make_light_point(in.light);
   const reference::PixelRays rays = reference::pixel_rays(s.frame.camera, in.width_px, in.height_px);
 
-  Progress progress("validating " + scene_path, 4);
+  Progress progress("building the ray tracer of " + scene_path, 4);
   const reference::RayTracer tracer(triangles);
   progress.advance();
+  progress.relabel("tracing " + scene_path);
   const reference::MaskTrace traced = tracer.trace_mask(light, receivers);
   progress.advance();
+  progress.relabel("settling disputed bits of " + scene_path);
   const reference::Settled settled = reference::settle(triangles, light, receivers, mask, traced.mask);
   progress.advance();
+  progress.relabel("checking the points of " + scene_path);
 
   Outcome outcome{scene_path, provenance(s, frame, *o.technique, o.arguments, scene_path)};
   nlohmann::json& json = outcome.json;
+  json["options"]["points"] = o.points;
   json["mask_hash"] = mask_hash(asked);
   json["pixels"] = mask.size();
   json["spp"] = receivers.sample_count();
@@ -203,7 +210,7 @@ void print_table(const std::vector<Outcome>& outcomes) {
       const nlohmann::json value = outcome.json.value(nlohmann::json::json_pointer(column.path), nlohmann::json());
       row.push_back(value.is_null()           ? ""
                     : value.is_number_float() ? fmt::format("{:.4f}", value.get<double>())
-                                              : value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+                                              : json_text(value));
     }
     table.add_row(row);
   }
@@ -219,18 +226,33 @@ bool passes(const Outcome& outcome, double max_leak_percent) {
 }
 
 int validate(const ValidateOptions& o) {
+  // Opened first: an output that cannot be written is known before the work.
+  std::optional<AtomicFile> text;
+  if (!o.json.empty()) text.emplace(o.json);
   std::vector<Outcome> outcomes;
+  std::vector<std::string> failures;
   bool good = true;
   for (const std::string& scene : o.scenes) {
-    outcomes.push_back(validate_scene(o, scene));
+    try {
+      outcomes.push_back(validate_scene(o, scene));
+    } catch (const UsageError&) {
+      throw;
+    } catch (const Error& e) {
+      failures.push_back(e.what());  // the others' results may take hours: they are not lost
+      continue;
+    }
     good &= passes(outcomes.back(), o.max_leak);
   }
-  print_table(outcomes);
-  if (!o.json.empty()) {
+  if (!outcomes.empty()) print_table(outcomes);
+  std::fflush(stdout);
+  for (const std::string& failure : failures) note("{}", failure);
+  if (!failures.empty()) return 1;
+  if (text) {
     nlohmann::json all = nlohmann::json::array();
     for (const Outcome& outcome : outcomes) all.push_back(outcome.json);
-    write_file_atomically(
-        o.json, (all.size() == 1 ? all[0] : all).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    const std::string json_file = json_text(all.size() == 1 ? all[0] : all, 1) + "\n";
+    text->write(std::as_bytes(std::span(json_file)));
+    text->commit();
   }
   return good ? 0 : 1;
 }
@@ -245,6 +267,7 @@ Command add_validate(CLI::App& app, const Arguments& arguments) {
   sub->add_option("SCENE", o->scenes, "one or more .gltf or .glb files")->required();
   o->options().add_to(*sub, "Output");
   o->frame.options().add_to(*sub, "Frame");
+  sub->get_option("--fov")->needs(sub->get_option("--eye"));
   o->technique->options().add_to(*sub, "Technique " + o->technique->info().name);
   sub->footer(
       "With --viewpoint auto each scene takes the view that is named after its file.\n"

@@ -5,7 +5,9 @@
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
+#include <iterator>
 #include <memory>
 
 #include "base/error.h"
@@ -51,6 +53,39 @@ fs::path temporary_beside(const fs::path& target) {
   return target.parent_path() / fmt::format(".izb-{}-{}.tmp", getpid(), count++);
 }
 
+/// Names that the signal handler may read at any moment: of fixed size and never freed.
+struct Slot {
+  enum State { free, taken, ready };
+  std::atomic<int> state{free};
+  char name[4096];
+};
+Slot slots[16];
+
+/// -1 if all slots are taken or the name is too long: a signal then leaves that file behind.
+int take_slot(const fs::path& path) {
+  const std::string absolute = fs::absolute(path).string();
+  if (absolute.size() >= sizeof Slot::name) return -1;
+  for (int i = 0; i < int(std::size(slots)); ++i) {
+    int expected = Slot::free;
+    if (!slots[i].state.compare_exchange_strong(expected, Slot::taken)) continue;
+    std::memcpy(slots[i].name, absolute.c_str(), absolute.size() + 1);
+    slots[i].state = Slot::ready;
+    return i;
+  }
+  return -1;
+}
+
+void release_slot(int i) {
+  if (i >= 0) slots[i].state = Slot::free;
+}
+
+/// Only async-signal-safe calls. SA_RESETHAND has restored the default, which ends the process.
+void unlink_temporaries(int signal) {
+  for (const Slot& slot : slots)
+    if (slot.state == Slot::ready) unlink(slot.name);
+  raise(signal);
+}
+
 }  // namespace
 
 std::vector<std::byte> read_binary_file(const fs::path& path) {
@@ -79,14 +114,21 @@ AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)), final_(tar
       fail("cannot write '{}': the folder '{}' does not exist", target_.string(), folder.string());
     }
     temporary_ = temporary_beside(final_);
+    signal_slot_ = take_slot(temporary_);  // before there is something to remove
     file_ = std::fopen(temporary_.c_str(), "wbx");
   }
-  if (!file_) fail_writing();
+  if (!file_) {
+    const int cause = errno;
+    release_slot(signal_slot_);
+    errno = cause;
+    fail_writing();
+  }
 }
 
 AtomicFile::~AtomicFile() {
   if (file_) std::fclose(file_);
   if (!temporary_.empty()) unlink(temporary_.c_str());
+  release_slot(signal_slot_);
 }
 
 void AtomicFile::fail_writing() const {
@@ -98,12 +140,29 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail_writing();
 }
 
-void AtomicFile::commit() {
+void AtomicFile::close() {
   std::FILE* file = std::exchange(file_, nullptr);
-  if (std::fclose(file) != 0) fail_writing();
+  if (file && std::fclose(file) != 0) fail_writing();
+}
+
+void AtomicFile::commit() {
+  close();
   if (temporary_.empty()) return;
   if (std::rename(temporary_.c_str(), final_.c_str()) != 0) fail_writing();
   temporary_.clear();
+  release_slot(std::exchange(signal_slot_, -1));
+}
+
+void remove_temporaries_on_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    sigaction(signal, nullptr, &action);
+    if (action.sa_handler == SIG_IGN) continue;  // nohup, or a shell's background job
+    action.sa_handler = unlink_temporaries;
+    action.sa_flags = int(SA_RESETHAND);
+    sigemptyset(&action.sa_mask);
+    sigaction(signal, &action, nullptr);
+  }
 }
 
 void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {

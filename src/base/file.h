@@ -32,8 +32,14 @@ class AtomicFile {
   /// Appends bytes. Throws izb::Error, e.g. if the disk is full.
   void write(std::span<const std::byte> bytes);
 
-  /// Flushes, closes and makes the file appear under its name. Throws izb::Error if any of it fails.
+  /// Flushes and closes: after it, only commit() is left to do. Throws izb::Error, e.g. if the disk is full.
+  void close();
+
+  /// close(), and the file appears under its name. Throws izb::Error if any of it fails.
   void commit();
+
+  /// As given, for messages.
+  const std::filesystem::path& target() const { return target_; }
 
  private:
   [[noreturn]] void fail_writing() const;
@@ -41,8 +47,12 @@ class AtomicFile {
   std::filesystem::path target_;     ///< as given, for messages
   std::filesystem::path final_;      ///< symbolic links resolved
   std::filesystem::path temporary_;  ///< empty: `final_` is written directly, or the rename has happened
+  int signal_slot_ = -1;             ///< where the signal handler finds `temporary_`; -1: nowhere
   std::FILE* file_ = nullptr;
 };
+
+/// From now on SIGINT, SIGTERM and SIGHUP remove the temporaries of this process before they end it.
+void remove_temporaries_on_signals();
 
 /// Writes all of a file, or throws izb::Error and leaves what was there.
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);

@@ -13,6 +13,8 @@ class Context {
   virtual ~Context() = default;
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
+  /// Which of its ways to a context it took, e.g. EGL's "surfaceless"; "": there is only one.
+  virtual std::string platform() const { return {}; }
 
  protected:
   Context() = default;

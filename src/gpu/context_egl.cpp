@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// EGL without a surface: each device first (a GPU before Mesa's software device; NVIDIA has only devices), then
-// Mesa's surfaceless platform, then the default display.
+// EGL without a surface: GPUs by the device platform first (NVIDIA has no other), then Mesa's surfaceless platform,
+// which is there without any device too, then Mesa's software device, then the default display.
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
@@ -43,7 +43,7 @@ const char* egl_error_words() {
 
 class EglContext final : public Context {
  public:
-  EglContext(EGLDisplay display, bool debug) : display_(display) {
+  EglContext(EGLDisplay display, std::string platform, bool debug) : display_(display), platform_(std::move(platform)) {
     if (!eglInitialize(display_, nullptr, nullptr)) fail("cannot initialise ({})", egl_error_words());
     try {
       create(debug);
@@ -53,6 +53,7 @@ class EglContext final : public Context {
     }
   }
   ~EglContext() override { destroy(); }
+  std::string platform() const override { return platform_; }
 
  private:
   void create(bool debug) {
@@ -85,6 +86,7 @@ class EglContext final : public Context {
   }
 
   EGLDisplay display_;
+  std::string platform_;
   EGLContext context_ = EGL_NO_CONTEXT;
 };
 
@@ -93,23 +95,30 @@ struct Platform {
   EGLDisplay display;
 };
 
+bool is_software(EGLDeviceEXT device) {
+  const auto query = reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(eglGetProcAddress("eglQueryDeviceStringEXT"));
+  const char* extensions = query ? query(device, EGL_EXTENSIONS) : nullptr;
+  return extensions && std::strstr(extensions, "EGL_MESA_device_software");
+}
+
 std::vector<Platform> platforms() {
-  std::vector<Platform> all;
+  std::vector<Platform> all, software;
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   const auto get_display =
       reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
   const auto has = [&](const char* name) { return extensions && std::strstr(extensions, name); };
   if (get_display && has("EGL_EXT_platform_device") && has("EGL_EXT_device_enumeration")) {
-    // Hardware first: a device with a DRM node is a GPU; Mesa's software device comes after it in the list.
     const auto query_devices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
     EGLDeviceEXT devices[16];
     EGLint count = 0;
     if (query_devices && query_devices(16, devices, &count))
       for (EGLint i = 0; i < count; ++i)
-        all.push_back({fmt::format("device {}", i), get_display(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr)});
+        (is_software(devices[i]) ? software : all)
+            .push_back({fmt::format("device {}", i), get_display(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr)});
   }
   if (get_display && has("EGL_MESA_platform_surfaceless"))
     all.push_back({"surfaceless", get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)});
+  all.insert(all.end(), software.begin(), software.end());
   all.push_back({"default display", eglGetDisplay(EGL_DEFAULT_DISPLAY)});
   return all;
 }
@@ -121,7 +130,7 @@ std::unique_ptr<Context> create_egl_context(bool debug) {
   for (const Platform& p : platforms()) {
     if (p.display == EGL_NO_DISPLAY) continue;
     try {
-      return std::make_unique<EglContext>(p.display, debug);
+      return std::make_unique<EglContext>(p.display, p.name, debug);
     } catch (const Error& e) {
       tried += fmt::format("{}{}: {}", tried.empty() ? "" : ", ", p.name, e.what());
     }

@@ -217,15 +217,20 @@ std::string cause_of(const std::exception& error, const std::string& name) {
 
 void write_exr(const std::filesystem::path& path, const Image& image, const ExrOptions& options) {
   AtomicFile file(path);
+  write_exr(file, image, options);
+  file.commit();
+}
+
+void write_exr(AtomicFile& file, const Image& image, const ExrOptions& options) {
+  const std::string name = file.target().string();
   use_all_cores();
-  MemoryOutput stream(path.string());
+  MemoryOutput stream(name);
   try {
     encode(stream, image, options);
   } catch (const std::exception& error) {
-    fail("cannot write '{}': {}", path.string(), cause_of(error, path.string()));
+    fail("cannot write '{}': {}", name, cause_of(error, name));
   }
   file.write(stream.bytes());
-  file.commit();
 }
 
 Image read_exr(const std::filesystem::path& path) {

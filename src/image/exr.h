@@ -13,6 +13,8 @@
 
 namespace izb {
 
+class AtomicFile;
+
 struct ExrOptions {
   bool half_color =
       false;  ///< store the channels R, G, B and A in 16 bits; finite values are clamped to the half's range
@@ -22,6 +24,9 @@ struct ExrOptions {
 /// atomically. Throws izb::Error if the file cannot be written, or if OpenEXR refuses the size, a channel or
 /// an attribute.
 void write_exr(const std::filesystem::path& path, const Image& image, const ExrOptions& options = {});
+
+/// The same into an open file, without its commit().
+void write_exr(AtomicFile& file, const Image& image, const ExrOptions& options = {});
 
 /// Reads the first part of a flat OpenEXR file: all channels in order of their names (half becomes float) and
 /// the attributes of the types in Attribute, but for those that OpenEXR itself requires of each file. Throws

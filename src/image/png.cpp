@@ -25,10 +25,15 @@ struct PngImage {
 }  // namespace
 
 void write_png(const std::filesystem::path& path, const Image8& picture) {
+  AtomicFile file(path);
+  write_png(file, picture);
+  file.commit();
+}
+
+void write_png(AtomicFile& file, const Image8& picture) {
   if (picture.pixels.size() != size_t(picture.width_px) * size_t(picture.height_px) * size_t(picture.components)) {
     throw std::logic_error("a picture has the wrong number of pixels");
   }
-  AtomicFile file(path);
   PngImage png;
   png.state.width = png_uint_32(picture.width_px);
   png.state.height = png_uint_32(picture.height_px);
@@ -36,10 +41,9 @@ void write_png(const std::filesystem::path& path, const Image8& picture) {
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png.state);
   std::vector<std::byte> bytes(size);
   if (!png_image_write_to_memory(&png.state, bytes.data(), &size, 0, picture.pixels.data(), 0, nullptr)) {
-    fail("cannot write '{}': libpng says: {}", path.string(), png.state.message);
+    fail("cannot write '{}': libpng says: {}", file.target().string(), png.state.message);
   }
   file.write(std::span(bytes).first(size));
-  file.commit();
 }
 
 Image8 read_png(const std::filesystem::path& path) {

@@ -7,8 +7,13 @@
 
 namespace izb {
 
+class AtomicFile;
+
 /// Writes an sRGB picture of 3 or 4 components atomically. Throws izb::Error if the file cannot be written.
 void write_png(const std::filesystem::path& path, const Image8& picture);
+
+/// The same into an open file, without its commit().
+void write_png(AtomicFile& file, const Image8& picture);
 
 /// Reads any PNG as 8-bit sRGB: 4 components if it has alpha, else 3. Throws izb::Error if the file is
 /// missing, is no PNG, or is truncated.

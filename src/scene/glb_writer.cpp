@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_text.h"
 
 namespace izb {
 namespace {
@@ -192,7 +193,7 @@ Document make_document(const Scene& scene) {
 
 std::vector<uint8_t> to_glb(const Scene& scene) {
   const Document doc = make_document(scene);
-  std::string text = doc.json.dump();
+  std::string text = json_text(doc.json);
   text.resize((text.size() + 3) / 4 * 4, ' ');  // chunks are padded to 4 bytes; every accessor is already
   const auto json_size = static_cast<uint32_t>(text.size());
   const size_t total = 12 + 8 + text.size() + 8 + doc.binary.size();

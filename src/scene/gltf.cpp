@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/gltf.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <new>
@@ -53,6 +54,8 @@ class InstanceLoader {
 
  private:
   static constexpr int no_mesh = -1;
+  /// Products of two edges and a square of that stay below the largest float at the scale of such a scene's parts.
+  static constexpr float largest_coordinate = 1.0e15f;
 
   void add_node(size_t node_index) {
     const tinygltf::Node& node = model_.nodes[node_index];
@@ -97,6 +100,10 @@ class InstanceLoader {
       const glm::vec3 world(world_from_object * glm::dvec4(p, 1.0));
       if (!std::isfinite(world.x) || !std::isfinite(world.y) || !std::isfinite(world.z))
         fail("nodes[{}] moves its mesh out of the range of floating-point numbers", node_index);
+      const float size = std::max({std::abs(world.x), std::abs(world.y), std::abs(world.z)});
+      if (size > largest_coordinate)
+        fail("nodes[{}] has coordinates of {:.3g} units, and single precision copes with at most {:.0e}", node_index,
+             size, largest_coordinate);
     }
     scene_.instances.push_back({static_cast<uint32_t>(mesh), world_from_object});
   }

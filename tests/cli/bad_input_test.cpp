@@ -126,6 +126,22 @@ TEST_F(BadInput, PositionsThatAreNotFinite) {
   }
 }
 
+TEST_F(BadInput, CoordinatesBeyondSinglePrecision) {
+  GltfWriter gltf = roof_over_floor();
+  gltf.root["nodes"][0]["scale"] = {1e16, 1, 1};
+  expect_scene_refused("huge.glb", gltf.glb(), "5e+16");
+}
+
+TEST_F(BadInput, LightsThatAreNotSupportedYet) {
+  GltfWriter gltf = roof_over_floor();
+  json& light = gltf.root["extensions"]["KHR_lights_punctual"]["lights"][0];
+  light["type"] = "point";
+  expect_refused(render(write_file(folder / "point.glb", gltf.glb()), {"--light", "noon"}), "noon", "point");
+  light["type"] = "spot";
+  light["spot"] = {{"outerConeAngle", 1.2}};
+  expect_refused(render(write_file(folder / "wide.glb", gltf.glb()), {"--light", "noon"}), "noon", "60");
+}
+
 TEST_F(BadInput, CyclicNodes) {
   GltfWriter gltf = one_triangle();
   gltf.append("nodes", {{"children", {2}}});
@@ -198,6 +214,7 @@ TEST_F(BadInput, WrongUsage) {
       {{"--eye", "0,1,2", "--target", "0,0,0", "--camera", "above"}, "--camera"},
       {{"--sun", "10,10", "--light", "noon"}, "--light"},
       {{"--fov", "180"}, "fov"},
+      {{"--fov", "30"}, "--eye"},
       {{"--no-such-option"}, "--no-such-option"},
       {{"one-word-too-many"}, "one-word-too-many"},
   };
@@ -205,6 +222,8 @@ TEST_F(BadInput, WrongUsage) {
     const Outcome outcome = render(good(), words);
     EXPECT_EQ(outcome.code, 2) << words[0] << ": " << outcome.err;
     EXPECT_TRUE(outcome.says(named)) << words[0] << ": " << outcome.err;
+    EXPECT_EQ(outcome.error_lines().size(), 1u) << words[0] << ": " << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("izb: ")) << words[0] << ": " << outcome.err;
     EXPECT_EQ(names_in(output), std::vector<std::string>{}) << words[0];
   }
 }
@@ -219,7 +238,8 @@ TEST_F(BadInput, CommandsThatAreNotComplete) {
                                                 {"scene", "moon"}}) {
     const Outcome outcome = izb::test::izb(words);
     EXPECT_EQ(outcome.code, 2) << testing::PrintToString(words) << outcome.err;
-    EXPECT_NE(outcome.err, "");
+    EXPECT_EQ(outcome.error_lines().size(), 1u) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("izb: ")) << outcome.err;
     EXPECT_EQ(outcome.out, "");
   }
 }
@@ -264,6 +284,44 @@ TEST_F(BadInput, FullDevice) {
   const Outcome outcome = izb::test::izb({"scene", "garden", "-o", *full});
   EXPECT_EQ(outcome.code, 1);
   EXPECT_TRUE(outcome.says("No space left on device")) << outcome.err;
+}
+
+TEST_F(BadInput, OneFileForTwoOutputs) {
+  const fs::path same = output / "same";
+  expect_refused(izb::test::izb({"render", good(), "-o", same, "--preview", output / "." / "same"}), "same",
+                 "--output and --preview", 2);
+}
+
+TEST_F(BadInput, WhereOneOutputFailsNoneAppears) {
+  const auto full = full_device(folder / ".");
+  if (!full) GTEST_SKIP() << "no full device";
+  for (const char* bad : {"-o", "--preview", "--json"}) {
+    std::vector<std::string> words{"render", good(), "--size", "32x18"};
+    for (const char* option : {"-o", "--preview", "--json"}) {
+      words.push_back(option);
+      words.push_back(option == std::string(bad) ? *full : output / (std::string("frame") + option));
+    }
+    expect_refused(izb::test::izb(words), *full, "No space left on device");
+  }
+}
+
+TEST_F(BadInput, ASignalLeavesNothingBehind) {
+  // So many frames that it is still at them when the signal comes.
+  for (const auto& [signal, code] : {std::pair{"INT", 130}, {"TERM", 143}}) {
+    const Outcome outcome = run_program({"timeout", "--preserve-status", "-s", signal, "4", IZB_PROGRAM, "render",
+                                         good(), "-o", output / "frame.exr", "--size", "32x18", "--repeat", "10000"});
+    EXPECT_EQ(outcome.code, code) << signal << outcome.err;
+    EXPECT_EQ(names_in(output), std::vector<std::string>{}) << signal;
+  }
+}
+
+TEST_F(BadInput, ValidateStillReportsTheOtherScenes) {
+  const Outcome outcome = izb::test::izb({"validate", folder / "absent.glb", good(), "--size", "32x18"});
+  if (outcome.says("Embree")) GTEST_SKIP() << "this build has no Embree";
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(outcome.prints("good ")) << outcome.out;
+  ASSERT_FALSE(outcome.error_lines().empty());
+  EXPECT_NE(outcome.error_lines().back().find("absent.glb"), std::string::npos) << outcome.err;
 }
 
 TEST_F(BadInput, AnOldOutputSurvivesAFailure) {

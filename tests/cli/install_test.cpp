@@ -17,17 +17,19 @@ TEST(Install, TheInstalledProgramRunsFromItsOwnFiles) {
   ASSERT_EQ(installed.code, 0) << installed.err;
   const fs::path program = prefix / "bin" / "izb";
   EXPECT_EQ(run_program({program, "--version"}).out, izb::test::izb({"--version"}).out);
-  for (const char* file :
-       {"share/izb/glsl/frame/6_shade.comp.glsl", "share/doc/izb/LICENSE", "share/doc/izb/CITATION.cff"})
+  for (const char* file : {"share/izb/glsl/frame/6_shade.comp.glsl", "share/izb/views.json", "share/izb/garden.glb",
+                           "share/doc/izb/LICENSE", "share/doc/izb/CITATION.cff"})
     EXPECT_TRUE(fs::is_regular_file(prefix / file)) << file;
 
   const fs::path scene = write_file(folder / "roof.glb", roof_over_floor().glb());
   const std::vector<std::string> render{program, "render", scene, "-o", folder / "frame.exr", "--size", "32x18"};
-  const Outcome good = run_program(render);
+  const RunOptions debug{{{"IZB_GL_DEBUG", "1"}}, false};
+  const Outcome good = run_program(render, debug);
   EXPECT_EQ(good.code, 0) << good.err;
+  EXPECT_FALSE(good.says("warning: GL:")) << good.err;
   // A mistake in the installed shader shows that it is this one which runs, not the source tree's.
   std::ofstream(prefix / "share/izb/glsl/frame/6_shade.comp.glsl", std::ios::app) << "planted mistake\n";
-  const Outcome planted = run_program(render);
+  const Outcome planted = run_program(render, debug);
   EXPECT_EQ(planted.code, 1);
   EXPECT_TRUE(planted.says("6_shade.comp.glsl")) << planted.err;
 }

@@ -56,7 +56,7 @@ TEST_F(Output, IsReadByOiiotool) {
         << channel << info;
   EXPECT_TRUE(std::regex_search(info, std::regex("channel list:.*mask \\(uint\\)"))) << info;
   for (const char* attribute : {"worldToCamera", "worldToNDC", "izb.command", "izb.version", "izb.gl", "izb.options",
-                                "izb.stages", "izb.mask_hash", "light.type", "light.direction"})
+                                "izb.stages", "izb.mask_hash", "light.type", "light.direction", "light.color"})
     EXPECT_NE(info.find(attribute), std::string::npos) << attribute << "\n" << info;
   EXPECT_NE(oiiotool({"--info", png}).find("64 x   36, 3 channel, uint8 png"), std::string::npos);
   const std::string stats = oiiotool({exr, "--ch", "visibility,depth,normal.X,R", "--printstats"});
@@ -121,6 +121,8 @@ TEST_F(Output, JsonHasTheDocumentedKeys) {
     EXPECT_TRUE(j["counts"].contains(count)) << count;
   EXPECT_TRUE(j["timing"] == "wall" || j["timing"] == "query");
   EXPECT_EQ(j["options"]["grid"], 256);
+  EXPECT_EQ(j["options"]["repeat"], 3);
+  EXPECT_EQ(j["options"]["peer"], false);
   EXPECT_NE(j["command"].get<std::string>().find("izb render "), std::string::npos);
   EXPECT_EQ(j["mask_hash"].get<std::string>().size(), 64u);
 }
@@ -143,6 +145,20 @@ TEST_F(Output, TechniquesWriteTheSameLayoutAndHereTheSameMask) {
   const izb::Image image = izb::read_exr(exr);
   for (const uint32_t word : image.uints("mask")) EXPECT_TRUE(word == 0 || word == 0xffffffffu);
   EXPECT_EQ(read_json(json)["mask_hash"], hash);
+}
+
+TEST_F(Output, APathThatIsNotUtf8IsNoObstacle) {
+  const fs::path odd = write_file(folder / "odd\xff.glb", roof_over_floor().glb());
+  const Outcome outcome = izb::test::izb({"render", odd, "-o", exr, "--json", json, "--size", "32x18"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(read_json(json)["scene"]["file"].get<std::string>().ends_with("odd\xef\xbf\xbd.glb"));
+}
+
+TEST_F(Output, ASpotsConesAreAttributes) {
+  ASSERT_EQ(render({"--spot", "0,6,0,0,0,0,40"}).code, 0);
+  const izb::Image image = izb::read_exr(exr);
+  EXPECT_FLOAT_EQ(std::get<float>(image.attributes.at("light.halfAngleDegrees")), 40.0f);
+  EXPECT_FLOAT_EQ(std::get<float>(image.attributes.at("light.innerHalfAngleDegrees")), 36.0f);
 }
 
 TEST_F(Output, NothingInViewIsTheSkyWithAWarning) {
@@ -224,7 +240,6 @@ TEST_F(Output, ValidateAttributesTheWrongBitsOfApproximations) {
   };
   const Outcome outcome = validate("lut", "approximate");
   if (outcome.says("Embree") && outcome.code == 1) GTEST_SKIP() << "this build has no Embree";
-  if (outcome.says("--coverage")) GTEST_SKIP() << "izb has no approximations yet";
   ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
   const nlohmann::json j = read_json(json);
   EXPECT_EQ(j["options"]["coverage"], "lut");
@@ -242,10 +257,42 @@ TEST_F(Output, ValidateAttributesTheWrongBitsOfApproximations) {
     EXPECT_EQ(exact[key], j[key]) << key;
 }
 
+TEST_F(Output, ValidateFailsOnAPlantedError) {
+  // A copy of the shaders that loses all shadow.
+  const fs::path glsl = folder / "glsl";
+  fs::copy(IZB_SOURCE_DIR "/glsl", glsl, fs::copy_options::recursive);
+  const fs::path file = glsl / "shadow/izb/receivers.glsl";
+  std::stringstream text;
+  text << std::ifstream(file).rdbuf();
+  std::string edited = text.str();
+  const std::string store = "imageStore(mask, px, uvec4(bits))";
+  const size_t at = edited.find(store);
+  ASSERT_NE(at, std::string::npos);
+  edited.replace(at, store.size(), "imageStore(mask, px, uvec4(0u))");
+  std::ofstream(file) << edited;
+  const Outcome outcome =
+      izb::test::izb({"validate", scene, "--size", "64x36", "--json", json}, {{{"IZB_GLSL", glsl}}, false});
+  if (outcome.says("Embree") && outcome.code == 1) GTEST_SKIP() << "this build has no Embree";
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  const nlohmann::json j = read_json(json);
+  EXPECT_GE(j["unexplained"], 10);  // all of the roof's shadow
+  EXPECT_EQ(j["unexplained"], j["leaks"]);
+}
+
+TEST_F(Output, InfoSaysThatBlendIsOpaque) {
+  GltfWriter gltf = roof_over_floor();
+  gltf.root["materials"] = {{{"alphaMode", "BLEND"}}};
+  gltf.root["meshes"][0]["primitives"][0]["material"] = 0;
+  const Outcome outcome = izb::test::izb({"info", write_file(folder / "glass.glb", gltf.glb())});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(outcome.prints("1 blended: they cast and receive as opaque")) << outcome.out;
+}
+
 TEST_F(Output, InfoTellsTheContextAndTheScene) {
   const Outcome outcome = izb::test::izb({"info", scene});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  for (const char* text : {"context egl", "renderer", "GL_MAX_TEXTURE_SIZE", "triangles", "4 placed", "above", "noon"})
+  for (const char* text :
+       {"context egl", "platform: ", "renderer", "GL_MAX_TEXTURE_SIZE", "triangles", "4 placed", "above", "noon"})
     EXPECT_TRUE(outcome.prints(text)) << text << "\n" << outcome.out;
 }
 

@@ -57,6 +57,21 @@ TEST(Progress, AppearsAfterASecondAndClearsItsLine) {
   EXPECT_EQ(pty.text(), "\r\x1b[K");
 }
 
+TEST(Progress, IsDrawnWithoutAnyAdvance) {
+  const PseudoTerminal pty;
+  if (!pty.terminal) GTEST_SKIP() << "no pseudo-terminal";
+  {
+    izb::Progress load("loading", 0, pty.terminal), trace("tracing", 4, pty.terminal);
+    trace.relabel("settling");
+    std::this_thread::sleep_for(1300ms);
+    const std::string text = pty.text();
+    EXPECT_NE(text.find("\rloading: 1 s"), std::string::npos) << text;
+    EXPECT_NE(text.find("\rsettling: 0 %"), std::string::npos) << text;
+    std::this_thread::sleep_for(1000ms);
+    EXPECT_NE(pty.text().find("\rloading: 2 s"), std::string::npos);
+  }
+}
+
 TEST(Progress, IsSilentOnShortWork) {
   const PseudoTerminal pty;
   if (!pty.terminal) GTEST_SKIP() << "no pseudo-terminal";

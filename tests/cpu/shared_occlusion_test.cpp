@@ -176,6 +176,19 @@ TEST(SharedOcclusion, DegenerateAndEdgeOnTrianglesCastNothing) {
   EXPECT_TRUE(shared::occludes(camera, light, a, b, glm::vec3(0, 1, -7), p, 5.0f));
 }
 
+TEST(SharedOcclusion, AHugeTriangleIsNeverCalledOut) {
+  // The square of its normal overflows: the plane's side must then be left to double precision.
+  const shared::CameraFrame camera = perspective_camera();
+  const shared::LightFrame light = make_light({0, -1, 0}, nullptr);
+  for (const float size : {1.0e3f, 1.0e9f, 1.0e10f, 1.0e12f}) {
+    // Ten sizes away, where the bias exceeds the rounding of a height: a plane of zeros would pass for one below it.
+    const float z = -10.0f * size;
+    const glm::vec3 a(-size, size, z - size), b(size, size, z - size), c(0, size, z + size), p(0, 0, z);
+    ASSERT_TRUE(shared::occludes(camera, light, a, b, c, p, -z)) << size;
+    EXPECT_NE(shared::classify(camera, shared::make_planes(light, a, b, c), p, -z), shared::pair_out) << size;
+  }
+}
+
 TEST(SharedOcclusion, ASpotIsNotShadowedFromBehindOrBeyond) {
   const shared::CameraFrame camera = perspective_camera();
   const glm::dvec3 lamp(0, 3, -10);

@@ -2,9 +2,11 @@
 #include "gpu/context.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <functional>
 
@@ -129,6 +131,57 @@ TEST_F(OwnProcess, AutoGoesOnWhenEglFails) {
     if (result.name != "osmesa") return "taken: " + result.name;
     if (result.attempts.size() != 2 || result.attempts[0].name != "egl") return "attempts are not egl, osmesa";
     return result.attempts[0].failure.empty() ? "no reason why EGL failed" : "";
+  });
+}
+
+/// Runs an X server without a screen on a display that was free; empty if there is none to run.
+class VirtualDisplay {
+ public:
+  VirtualDisplay() {
+    int ends[2];
+    if (pipe(ends) != 0) return;
+    server_ = fork();
+    if (server_ == 0) {
+      // The server chooses a free display and writes its number.
+      const std::string end = std::to_string(ends[1]);
+      execlp("Xvfb", "Xvfb", "-displayfd", end.c_str(), "-screen", "0", "640x480x24", "-nolisten", "tcp", nullptr);
+      _exit(127);
+    }
+    close(ends[1]);
+    std::string digits;
+    for (char c; read(ends[0], &c, 1) == 1 && c != '\n';) digits += c;
+    close(ends[0]);
+    if (!digits.empty()) name_ = ":" + digits;
+  }
+  ~VirtualDisplay() {
+    if (server_ <= 0) return;
+    kill(server_, SIGTERM);
+    waitpid(server_, nullptr, 0);
+  }
+  VirtualDisplay(const VirtualDisplay&) = delete;
+  VirtualDisplay& operator=(const VirtualDisplay&) = delete;
+  const std::string& name() const { return name_; }
+
+ private:
+  pid_t server_ = -1;
+  std::string name_;
+};
+
+TEST_F(OwnProcess, GlfwWorksOnADisplay) {
+  if (std::system("command -v Xvfb >/dev/null") != 0) GTEST_SKIP() << "no Xvfb";
+  if (missing_from_build(refusal("glfw"))) GTEST_SKIP() << "this build has no GLFW";
+  run([]() -> std::string {
+    const VirtualDisplay display;
+    if (display.name().empty()) return "Xvfb does not start";
+    hide_display();
+    setenv("DISPLAY", display.name().c_str(), 1);
+    const ContextResult result = create_context("glfw", true);
+    enable_debug_messages();
+    GLint major = 0, minor = 0;
+    glGetIntegerv(GL_MAJOR_VERSION, &major);
+    glGetIntegerv(GL_MINOR_VERSION, &minor);
+    if (result.name != "glfw" || major * 10 + minor < 45) return "no OpenGL 4.5";
+    return debug_message_count() == 0 ? "" : "GL reported an error";
   });
 }
 

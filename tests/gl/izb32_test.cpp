@@ -109,11 +109,18 @@ TEST(Izb32, ZZDebug) {
   const Scene scene = tangle(81, 300);
   for (const Light& light : lights()) {
     const Frame base = render_frame(scene, camera, light, width_px, height_px, exact);
-    for (const Settings& v : {Settings{{"cascades", "8"}}, Settings{{"cascades", "8"}, {"zcull-pyramid", "off"}}, Settings{{"cascades", "8"}, {"zcull", "off"}}, Settings{{"cascades", "8"}, {"grid", "256"}}}) {
+    for (const Settings& v :
+         {Settings{{"cascades", "8"}}, Settings{{"cascades", "8"}, {"zcull-pyramid", "off"}},
+          Settings{{"cascades", "8"}, {"zcull", "off"}}, Settings{{"cascades", "8"}, {"grid", "256"}}}) {
       const Frame other = render_frame(scene, camera, light, width_px, height_px, with(exact, v));
       std::printf("%zu ", different(base.mask, other.mask));
-      for (size_t i = 0; i < base.mask.size(); ++i) if (base.mask[i] != other.mask[i]) std::printf("(%zu: %08x %08x t %g slots %g %g scale %g) ", i, base.mask[i], other.mask[i], base.gbuffer.micro_quad[i].x, base.gbuffer.micro_quad[i].y, base.gbuffer.micro_quad[i].z, shared::scale_of(base.gbuffer.micro_quad[i]));
-      std::printf("\n"); std::fflush(stdout);
+      for (size_t i = 0; i < base.mask.size(); ++i)
+        if (base.mask[i] != other.mask[i])
+          std::printf("(%zu: %08x %08x t %g slots %g %g scale %g) ", i, base.mask[i], other.mask[i],
+                      base.gbuffer.micro_quad[i].x, base.gbuffer.micro_quad[i].y, base.gbuffer.micro_quad[i].z,
+                      shared::scale_of(base.gbuffer.micro_quad[i]));
+      std::printf("\n");
+      std::fflush(stdout);
     }
   }
 }
