@@ -26,5 +26,13 @@ SHARED ivec2 pool_texel(uint node) { return ivec2(int(node & 16383u), int(node >
 // What stands in the grid of nodes for a pixel that is in no list: above every node.
 SHARED uint not_a_node(uint pixel_class) { return 0xfffffff0u + pixel_class; }
 
+struct PoolCounters {
+  uint nodes;
+  uint largest_quad;  // texels that one micro-quad touches
+};
+
+// Some software renderers end every loop after 65535 rounds, all loops of an invocation taken together.
+const uint most_texels_a_quad = 49152u;
+
 SHARED_END
 #endif

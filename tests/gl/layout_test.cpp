@@ -11,6 +11,7 @@
 #include "gpu/program.h"
 #include "shadow/renderer.h"
 #include "shared/bounds.h"
+#include "shared/lists.h"
 #include "shared/micro_quad.h"
 #include "shared/pairs.h"
 
@@ -87,7 +88,8 @@ const std::map<std::string, Block> blocks{
       false,
       {{"samples.offset_px[0]", {offsetof(SampleFrame, offset_px), GL_FLOAT_VEC4}},
        FIELD("samples", SampleFrame, info)}}},
-    {"PoolBlock", {sizeof(uint), false, {{"pool_nodes", {0, GL_UNSIGNED_INT}}}}},
+    {"PoolBlock",
+     {sizeof(PoolCounters), false, {FIELD("pool", PoolCounters, nodes), FIELD("pool", PoolCounters, largest_quad)}}},
     {"CounterBlock",
      {sizeof(Counters),
       false,

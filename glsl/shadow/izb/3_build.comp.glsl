@@ -24,7 +24,7 @@ layout(binding = UNIT_MICRO_QUAD) uniform sampler2D micro_quad_texture;
 layout(location = 0) uniform int most_nodes;
 #endif
 #ifdef POOL
-layout(std430, binding = BIND_POOL) buffer PoolBlock { uint pool_nodes; };
+layout(std430, binding = BIND_POOL) buffer PoolBlock { PoolCounters pool; };
 layout(binding = IMAGE_NODES, rg32ui) writeonly uniform uimage2D nodes;
 #elif defined(MICRO_QUAD)
 layout(binding = IMAGE_NODES, r32ui) writeonly uniform uimage2DArray nodes;
@@ -54,8 +54,10 @@ void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
     ivec2 columns = quad_columns(on_grid, guard, last, y);
     count += uint(max(columns.y - columns.x + 1, 0));
   }
-  uint node = atomicAdd(pool_nodes, count) + 1u;
-#ifndef COUNT_NODES
+  uint node = atomicAdd(pool.nodes, count) + 1u;
+#ifdef COUNT_NODES
+  atomicMax(pool.largest_quad, count);
+#else
   for (int y = rows.x; y <= rows.y; ++y) {
     ivec2 columns = quad_columns(on_grid, guard, last, y);
     for (int x = columns.x; x <= columns.y; ++x) {

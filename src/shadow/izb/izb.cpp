@@ -126,7 +126,7 @@ void Izb::resize(int width_px, int height_px) {
   no_attributes_ = gpu::VertexArray("none");
   counters_ = gpu::Buffer("izb counters", sizeof(shared::Counters));
   pairs_ = gpu::Buffer("izb unsure pairs", sizeof(shared::UnsurePair) * static_cast<size_t>(s.pair_capacity));
-  pool_counter_ = gpu::Buffer("izb pool counter", sizeof(uint32_t));
+  pool_counter_ = gpu::Buffer("izb pool counter", sizeof(shared::PoolCounters));
   table_ = gpu::BufferTexture();
   if (s.table())
     table_ = gpu::BufferTexture("visibility look-up table", make_visibility_table(samples(), s.table_side()));
@@ -173,7 +173,12 @@ void Izb::count_pool(const FrameInputs& in) {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_POOL, pool_counter_.name());
   program(IzbProgram::count_nodes).dispatch(in.width_px, in.height_px, 16, 16);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  const uint32_t nodes = pool_counter_.read<uint32_t>(1)[0];
+  const auto [nodes, largest_quad] = pool_counter_.read<shared::PoolCounters>(1)[0];
+  if (largest_quad > shared::most_texels_a_quad)
+    fail(
+        "exact insertion: one micro-quad touches {} texels of the light-space grid, and {} is the most: take a smaller "
+        "--grid or fewer --cascades",
+        largest_quad, shared::most_texels_a_quad);
   const int rows = static_cast<int>(nodes / shared::pool_width) + 1;
   if (rows > shared::pool_width)
     fail("exact insertion needs {} nodes; {} is the most: take a smaller --grid or --size", nodes,
