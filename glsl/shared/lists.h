@@ -29,6 +29,8 @@ SHARED uint not_a_node(uint pixel_class) { return 0xfffffff0u + pixel_class; }
 struct PoolCounters {
   uint nodes;
   uint largest_quad;  // texels that one micro-quad touches
+  uint unused0;
+  uint unused1;
 };
 
 // Some software renderers end every loop after 65535 rounds, all loops of an invocation taken together.

@@ -80,7 +80,7 @@ TEST(Izb32, IsTheBruteForceMaskOfAnOrthographicCameraAndASpot) {
   flat.near_plane = 0.1;
   flat.far_plane = 40.0;
   const Light light = spot({2.0, 6.0, 3.0}, {0, 0, 0}, 40);
-  const Frame frame = render_frame(tangle(80, 300), flat, light, width_px, height_px, exact);
+  const Frame frame = render_frame(tangle(80, 300), flat, light, width_px, height_px, with(exact, {{"grid", "256"}}));
   EXPECT_EQ(different(frame.mask, brute_force_words(frame)), 0u);
   EXPECT_GT(partly(frame), 100u);
   expect_explained(frame);

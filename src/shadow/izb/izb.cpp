@@ -173,7 +173,8 @@ void Izb::count_pool(const FrameInputs& in) {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_POOL, pool_counter_.name());
   program(IzbProgram::count_nodes).dispatch(in.width_px, in.height_px, 16, 16);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  const auto [nodes, largest_quad] = pool_counter_.read<shared::PoolCounters>(1)[0];
+  const shared::PoolCounters counted = pool_counter_.read<shared::PoolCounters>(1)[0];
+  const uint32_t nodes = counted.nodes, largest_quad = counted.largest_quad;
   if (largest_quad > shared::most_texels_a_quad)
     fail(
         "exact insertion: one micro-quad touches {} texels of the light-space grid, and {} is the most: take a smaller "
