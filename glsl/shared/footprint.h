@@ -6,7 +6,7 @@
 // what lies outside the dilated axis-aligned box.
 #ifndef IZB_SHARED_FOOTPRINT_H
 #define IZB_SHARED_FOOTPRINT_H
-#include "shared/light.h"
+#include "shared/light_plane.h"
 SHARED_BEGIN
 
 struct Footprint {
@@ -64,24 +64,12 @@ SHARED Footprint make_footprint(IN(LightFrame) light, IN(LightWindow) window, IN
     crosses = min(la.z, min(lb.z, lc.z)) <= 2.0f * z_error;
   }
   if (crosses) {
-    // Clipped at the light's plane the projection is unbounded: its points there lie at infinity, on the sides that
-    // their x and y tell. The box over all of it, cut to the grid, is taken, at depth 0: always in front.
-    vec3 low = min(la, min(lb, lc)) - vec3(z_error);
-    vec3 high = max(la, max(lb, lc)) + vec3(z_error);
-    float huge = 1.0e30f;
-    // A point with z in (0, high.z] and x <= 0 projects to x / z <= x / high.z, and so on; sharper than infinity only
-    // where all x (or y) have one sign.
-    float u_min = low.x < 0.0f ? -huge : low.x / high.z;
-    float u_max = high.x > 0.0f ? huge : high.x / high.z;
-    float v_min = low.y < 0.0f ? -huge : low.y / high.z;
-    float v_max = high.y > 0.0f ? huge : high.y / high.z;
     float margin = 2.0f + window.guard.x + half_texel;
-    f.box = vec4(max((u_min - window.window.x) * window.window.z - margin, -1.0f),
-                 max((v_min - window.window.y) * window.window.w - margin, -1.0f),
-                 min((u_max - window.window.x) * window.window.z + margin, side + 1.0f),
-                 min((v_max - window.window.y) * window.window.w + margin, side + 1.0f));
+    vec4 front = front_box(light, window, la, lb, lc, z_error, margin);
+    f.box = vec4(max(front.x - margin, -1.0f), max(front.y - margin, -1.0f), min(front.z + margin, side + 1.0f),
+                 min(front.w + margin, side + 1.0f));
     if (f.box.x >= f.box.z || f.box.y >= f.box.w) return f;
-    f.p0 = vec3(f.box.x, f.box.y, 0.0f);
+    f.p0 = vec3(f.box.x, f.box.y, 0.0f);  // depth 0: in front of all
     f.p1 = vec3(f.box.z, f.box.y, 0.0f);
     f.p2 = vec3(f.box.x, f.box.w, 0.0f);
     f.p3 = vec3(f.box.z, f.box.w, 0.0f);

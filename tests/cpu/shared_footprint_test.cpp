@@ -148,5 +148,41 @@ TEST(SharedFootprint, CostsLittleMoreThanTheTexelsItMust) {
   EXPECT_LT(needle_area, 0.15 * needle_box);
 }
 
+TEST(SharedFootprint, ATriangleAcrossTheLightsPlaneCostsTheBoxOfItsPartInFront) {
+  // The texels whose centre's ray from the lamp hits the triangle, found one by one, against the footprint's box.
+  Random random(14);
+  const glm::dvec3 lamp(0, 0, 0);
+  double boxes = 0.0, needed = 0.0;
+  int crossing = 0;
+  for (int i = 0; i < 400; ++i) {
+    Setting s{make_light(random.direction(), &lamp, 64), {}};
+    s.window.window = glm::vec4(-1, -1, 32, 32);  // 45 degrees to each side
+    s.window.depth = glm::vec4(0.5f, 0.001f, 0, 0);
+    s.window.guard = glm::vec4(0, 1, 0, 0);
+    const glm::dvec3 z = glm::vec3(s.light.axis_z), center = random.point(1.0);
+    const glm::dvec3 a = center + random.point(2.0), b = center + random.point(2.0), c = center + random.point(2.0);
+    const double nearest = std::min({glm::dot(a, z), glm::dot(b, z), glm::dot(c, z)});
+    if (nearest > 0.0) continue;
+    const glm::dvec3 x = glm::vec3(s.light.axis_x), y = glm::vec3(s.light.axis_y);
+    glm::dvec2 low(1e9), high(-1e9);
+    for (int v = 0; v < 64; ++v)
+      for (int u = 0; u < 64; ++u) {
+        const glm::dvec3 ray = z + x * ((u + 0.5) / 32 - 1) + y * ((v + 0.5) / 32 - 1);
+        const glm::dvec3 weights = glm::inverse(glm::dmat3(a, b, c)) * ray;  // all positive: hit, in front
+        if (glm::any(glm::lessThan(weights, glm::dvec3(0)))) continue;
+        low = glm::min(low, glm::dvec2(u, v)), high = glm::max(high, glm::dvec2(u + 1, v + 1));
+      }
+    const shared::Footprint f =
+        shared::make_footprint(s.light, s.window, glm::vec3(a), glm::vec3(b), glm::vec3(c), 0.5f);
+    if (f.count > 0) boxes += (f.box.z - f.box.x) * (f.box.w - f.box.y);
+    if (low.x > high.x) continue;
+    ++crossing;
+    needed += (high.x - low.x) * (high.y - low.y);
+  }
+  EXPECT_GT(crossing, 50);
+  // A margin of 2.5 texels on each side of boxes of some 40: a quarter more.
+  EXPECT_LT(boxes, 1.3 * needed);
+}
+
 }  // namespace
 }  // namespace izb::test
