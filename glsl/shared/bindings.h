@@ -8,6 +8,8 @@
 #define BIND_LIGHT 1
 #define BIND_SHADE 2
 #define BIND_SAMPLES 3
+#define BIND_WINDOWS 4
+#define BIND_CASCADE_ENDS 5
 
 // Storage blocks.
 #define BIND_INSTANCES 0

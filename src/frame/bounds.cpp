@@ -54,7 +54,10 @@ void BoundsStage::render(gpu::StageTimers& timers) {
   reduce_.dispatch(threads_a_group * groups, 1, threads_a_group, 1, cascades_);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   window_program_.dispatch(1, 1, 1, 1);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  // Read as uniform blocks: a software renderer reads storage lane by lane.
+  glMemoryBarrier(GL_UNIFORM_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  glBindBufferBase(GL_UNIFORM_BUFFER, BIND_WINDOWS, windows_.name());
+  glBindBufferBase(GL_UNIFORM_BUFFER, BIND_CASCADE_ENDS, cascades_buffer_.name());
 }
 
 shared::LightWindow BoundsStage::read_window(int cascade) const {

@@ -12,8 +12,8 @@ class BoundsStage {
   BoundsStage();
   /// micro_quads: the windows hold the pixels' micro-quads, not only their centres.
   void prepare(bool micro_quads, int cascades);
-  /// Camera and light uniform blocks and the G-buffer's textures are bound. Leaves the windows bound as BIND_WINDOW and
-  /// the cascades' ends as BIND_CASCADES.
+  /// Camera and light uniform blocks and the G-buffer's textures are bound. Leaves the windows bound as BIND_WINDOWS
+  /// and the cascades' ends as BIND_CASCADE_ENDS, both uniform blocks.
   void render(gpu::StageTimers& timers);
   /// Reads a cascade's window back; for checks and debug views only.
   shared::LightWindow read_window(int cascade = 0) const;

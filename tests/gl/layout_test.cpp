@@ -154,12 +154,20 @@ void compare(GLuint program, bool storage, std::map<std::string, std::set<std::s
     if (block_index < 0) continue;  // a sampler or image
     const std::string block_name = resource_name(program, block_interface, static_cast<GLuint>(block_index));
     const Block& block = blocks.at(block_name);
-    const std::string name = resource_name(program, field_interface, i);
+    std::string name = resource_name(program, field_interface, i);
+    // A uniform block names every element of an array of structs; the table has the first.
+    size_t element = 0;
+    if (!storage && block.array) {
+      const size_t open = name.find('[') + 1, close = name.find(']');
+      element = std::stoul(name.substr(open, close - open));
+      name.replace(open, close - open, "0");
+    }
     const auto field = block.fields.find(name);
     ASSERT_NE(field, block.fields.end()) << block_name << " has no " << name << " in C++";
-    const Field seen{property(program, field_interface, i, GL_OFFSET), property(program, field_interface, i, GL_TYPE)};
-    EXPECT_EQ(seen, field->second) << block_name << ": " << name;
-    if (block.array) {
+    const GLint offset = property(program, field_interface, i, GL_OFFSET) - GLint(element * block.bytes);
+    const Field seen{offset, property(program, field_interface, i, GL_TYPE)};
+    EXPECT_EQ(seen, field->second) << block_name << ": " << name << " of element " << element;
+    if (storage && block.array) {
       const bool of_structs = name.find('.') != std::string::npos;
       const GLenum stride = of_structs ? GL_TOP_LEVEL_ARRAY_STRIDE : GL_ARRAY_STRIDE;
       EXPECT_EQ(size_t(property(program, field_interface, i, stride)), block.bytes) << block_name;

@@ -12,8 +12,8 @@ layout(local_size_x = 16, local_size_y = 16) in;
 
 layout(std140, binding = BIND_CAMERA) uniform CameraBlock { CameraFrame camera; };
 layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
-layout(std430, binding = BIND_WINDOW) readonly buffer WindowBlock { LightWindow windows[max_cascades]; };
-layout(std430, binding = BIND_CASCADES) readonly buffer CascadeBlock { CascadeRange range; };
+layout(std140, binding = BIND_WINDOWS) uniform WindowBlock { LightWindow windows[max_cascades]; };
+layout(std140, binding = BIND_CASCADE_ENDS) uniform CascadeBlock { CascadeRange range; };
 layout(binding = UNIT_EYE_DISTANCE) uniform sampler2D eye_distance_texture;
 layout(binding = UNIT_NORMAL) uniform sampler2D normal_texture;
 layout(binding = IMAGE_HEADS, r32ui) uniform uimage2DArray heads;

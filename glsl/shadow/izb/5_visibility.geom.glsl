@@ -16,7 +16,7 @@ layout(triangle_strip, max_vertices = 4) out;
 layout(location = 1) uniform float dilation;  // texels
 
 layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
-layout(std430, binding = BIND_WINDOW) readonly buffer WindowBlock { LightWindow windows[max_cascades]; };
+layout(std140, binding = BIND_WINDOWS) uniform WindowBlock { LightWindow windows[max_cascades]; };
 
 layout(location = 0) in vec3 v_position_vs[];
 layout(location = 1) flat in uint v_instance[];
