@@ -83,7 +83,7 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s) {
   };
   const auto build = [&](bool count) -> gpu::ProgramSpec {
     define(s.zcull, "ZCULL");
-    define(s.many_samples(), "MICRO_QUAD");
+    define(s.many_samples(), "SPP32");
     if (s.many_samples())
       define(true, s.insertion == "approximate" ? "ALONG_AXIS"
                    : s.insertion == "nv"        ? "BY_VIEW"
