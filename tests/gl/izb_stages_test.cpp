@@ -30,8 +30,9 @@ struct Built {
   Frame frame;
   IzbInternals izb;
 
-  Built(const Scene& scene, const Light& light, const Settings& settings) {
+  Built(const Scene& scene, const Light& light, const Settings& settings, int stride = 1) {
     Izb technique;
+    technique.settings().insertion_stride = stride;
     frame = render_frame(scene, camera, light, width_px, height_px, settings, technique);
     izb = technique.internals();
   }
@@ -315,6 +316,59 @@ TEST(IzbZCull, EachTexelOfThePyramidIsTheFurthestOfItsSquare) {
         for (int y = 0; y < side; ++y)
           for (int x = 0; x < side; ++x)
             ASSERT_EQ(izb.pyramid_at(level, {x, y}, c), expected[at(x, y, c)]) << level << ": " << x << " " << y;
+    }
+  }
+}
+
+/// Expects the same lists but for their order, and that this differs.
+void expect_other_order(const IzbInternals& a, const IzbInternals& b) {
+  ASSERT_EQ(a.lists.count(), b.lists.count());
+  size_t several = 0, other_order = 0;
+  for (size_t i = 0; i < a.lists.count(); ++i) {
+    std::vector<uint32_t> one(a.lists[i].begin(), a.lists[i].end()), other(b.lists[i].begin(), b.lists[i].end());
+    several += one.size() > 1;
+    other_order += one != other;
+    std::sort(one.begin(), one.end()), std::sort(other.begin(), other.end());
+    ASSERT_EQ(one, other) << i;
+  }
+  EXPECT_GT(several, 100u);
+  EXPECT_GT(other_order, several / 3);
+}
+
+// Coprime to the number of pixels: backwards, and scattered.
+const int strides[] = {width_px * height_px - 1, 1001};
+
+TEST(IzbOrder, OfInsertionAndDrawingDoesNotChangeTheBruteForceMask) {
+  const Scene scene = tangle(106, 300);
+  Scene backwards = scene;
+  for (Mesh& mesh : backwards.meshes) std::reverse(mesh.indices.begin(), mesh.indices.end());
+  std::swap(backwards.meshes[0], backwards.meshes[1]);
+  for (const Light& light : lights())
+    for (const Settings& settings :
+         {Settings{{"grid", "128"}}, Settings{{"grid", "128"}, {"removal", "on"}, {"pipelining", "on"}}}) {
+      const Built base(scene, light, settings);
+      EXPECT_EQ(different(base.frame.mask, brute_force_mask(base.frame)), 0u);
+      EXPECT_GT(shadowed(base.frame), 100u);
+      for (const int stride : strides) {
+        const Built permuted(scene, light, settings, stride);
+        expect_other_order(base.izb, permuted.izb);
+        EXPECT_EQ(different(base.frame.mask, permuted.frame.mask), 0u) << stride;
+        const Built both(backwards, light, settings, stride);
+        EXPECT_EQ(different(both.frame.mask, brute_force_mask(both.frame)), 0u) << stride;
+      }
+    }
+}
+
+TEST(IzbOrder, OfInsertionDoesNotChangeTheMaskOf32Samples) {
+  const Scene scene = tangle(107, 300);
+  const Settings exact{{"spp", "32"}, {"coverage", "exact"}, {"insertion", "exact"}, {"grid", "256"}};
+  const Settings approximate{{"spp", "32"}, {"grid", "256"}};
+  for (const Settings& settings : {exact, with(exact, {{"removal", "on"}}), approximate}) {
+    const Built base(scene, lights()[0], settings);
+    for (const int stride : strides) {
+      const Built permuted(scene, lights()[0], settings, stride);
+      expect_other_order(base.izb, permuted.izb);
+      EXPECT_EQ(different(base.frame.mask, permuted.frame.mask), 0u) << stride;
     }
   }
 }

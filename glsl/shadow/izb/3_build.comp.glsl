@@ -3,7 +3,7 @@
 // preallocated screen-space grid, so that a node's address is its pixel and slot and a node needs nothing but a next pointer
 // (6.2); at one sample a pixel the receiver's eye distance stands beside it, since a walk that reads one reads the other.
 // Defines: ZCULL; SPP32, and then how it is inserted (6.1): ALONG_AXIS, BY_VIEW, BY_SAMPLES, or POOL (every texel that
-// it touches; COUNT_NODES only counts them).
+// it touches; COUNT_NODES only counts them); STRIDE: in another order, for tests.
 #include "shared/bindings.h"
 #include "shared/insertion.h"
 #include "shadow/izb/nodes.glsl"
@@ -111,6 +111,10 @@ void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
 void main() {
   ivec2 px = ivec2(gl_GlobalInvocationID.xy);
   if (px.x >= int(camera.size_px.x) || px.y >= int(camera.size_px.y)) return;
+#ifdef STRIDE
+  uint n = (uint(px.y) * camera.size_px.x + uint(px.x)) * STRIDE % (camera.size_px.x * camera.size_px.y);
+  px = ivec2(n % camera.size_px.x, n / camera.size_px.x);
+#endif
   float t = texelFetch(eye_distance_texture, px, 0).x;
   vec3 p = receiver_point(camera, vec2(px) + 0.5, t);
   vec3 normal = octahedral_direction(texelFetch(normal_texture, px, 0).xy);

@@ -39,6 +39,8 @@ class Izb final : public Technique {
   /// Reads back what `build` and `zcull` left of the last frame; with removal the lists are what `visibility` left.
   /// Throws std::logic_error where a node stands in two lists.
   IzbInternals internals() const;
+  /// What options() is bound to, and what is no option.
+  IzbSettings& settings() { return settings_; }
 
  private:
   /// How the casters are drawn.
