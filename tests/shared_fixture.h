@@ -4,6 +4,7 @@
 #include <random>
 
 #include "shared/bounds.h"
+#include "shared/micro_quad.h"
 #include "shared/occlusion.h"
 
 namespace izb::test {
@@ -50,6 +51,12 @@ inline shared::LightFrame make_light(const glm::dvec3& way, const glm::dvec3* po
   light.color = glm::vec4(1.0f);
   light.grid = glm::uvec4(grid, 0, 0, 0);
   return light;
+}
+
+/// shared::micro_quad_point from the same floats, in double.
+inline glm::dvec3 point_in_double(const shared::MicroQuad& quad, const glm::dvec2& o) {
+  return glm::dvec3(quad.center) + (glm::dvec3(quad.along_x) * o.x + glm::dvec3(quad.along_y) * o.y) /
+                                       (1.0 + o.x * quad.slope.x + o.y * quad.slope.y);
 }
 
 }  // namespace izb::test

@@ -34,6 +34,12 @@ uint32_t positive_bits(const glm::dvec3& line) {
   return bits;
 }
 
+/// A line through or near the pixel.
+glm::vec3 random_line(Random& random) {
+  const double angle = random.uniform(0.0, 6.28318530718);
+  return {random.uniform(-0.7, 0.7), std::cos(angle), std::sin(angle)};
+}
+
 TEST(SharedTable, ABinsCentreFallsIntoTheBin) {
   for (const int side : {32, 64, 128})
     for (int entry = 0; entry < side * side; ++entry)
@@ -47,8 +53,7 @@ TEST(SharedTable, ErrsOnlyNearTheLineAndByAsManyBitsAsMeasuredElsewhere) {
     Random random(90);
     int lines = 0, wrong = 0;
     for (int i = 0; i < 40000; ++i) {
-      const double angle = random.uniform(0.0, 6.28318530718);
-      const glm::vec3 line(random.uniform(-0.7, 0.7), std::cos(angle), std::sin(angle));
+      const glm::vec3 line = random_line(random);
       const int entry = shared::table_entry(line, side);
       const uint32_t truth = positive_bits(line);
       if (entry < 0) {
@@ -73,8 +78,7 @@ TEST(SharedTable, ErrsOnlyNearTheLineAndByAsManyBitsAsMeasuredElsewhere) {
 TEST(SharedTable, OppositeLinesHaveComplementaryBits) {
   Random random(91);
   for (int i = 0; i < 20000; ++i) {
-    const double angle = random.uniform(0.0, 6.28318530718);
-    const glm::vec3 line(random.uniform(-0.7, 0.7), std::cos(angle), std::sin(angle));
+    const glm::vec3 line = random_line(random);
     const int here = shared::table_entry(line, 64), there = shared::table_entry(-line, 64);
     if (here < 0) {
       ASSERT_LT(there, 0);
@@ -166,9 +170,7 @@ TEST(SharedCoverage, IsTheExactPredicateAtEachSampleButForTheBias) {
     const shared::QuadPlanes planes = shared::quad_planes(camera, light, a, b, c, p.px, p.data);
     int inside = 0;
     for (const glm::vec2 o : all) {
-      const glm::dvec3 at =
-          glm::dvec3(quad.center) + (glm::dvec3(quad.along_x) * double(o.x) + glm::dvec3(quad.along_y) * double(o.y)) /
-                                        (1.0 + double(o.x) * quad.slope.x + double(o.y) * quad.slope.y);
+      const glm::dvec3 at = point_in_double(quad, o);
       const bool ours = shared::occluded_sample(planes, o);
       inside += ours;
       if (ours == reference::occluded_exact(at, {a, b, c}, point)) continue;
@@ -214,8 +216,7 @@ TEST(SharedInsertion, ExactInsertionCoversEveryTexelThatAPointOfTheMicroQuadFall
     for (int k = 0; k < 60; ++k) {
       const glm::dvec2 o = k < 4 ? glm::dvec2(shared::corner_offset(k))
                                  : glm::dvec2(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5));
-      const glm::dvec3 q = glm::dvec3(quad.center) + (glm::dvec3(quad.along_x) * o.x + glm::dvec3(quad.along_y) * o.y) /
-                                                         (1.0 + o.x * quad.slope.x + o.y * quad.slope.y);
+      const glm::dvec3 q = point_in_double(quad, o);
       const double u = glm::dot(glm::dvec3(glm::vec3(light.axis_x)), q),
                    v = glm::dot(glm::dvec3(glm::vec3(light.axis_y)), q);
       const int x = std::clamp(int(std::floor((u - window.window.x) * window.window.z)), 0, last);

@@ -51,12 +51,29 @@ inline std::vector<glm::vec3> floor_of(float size, int cuts = 1) {
   return all;
 }
 
+/// A floor and random triangles, large and small, some through the floor.
+inline Scene tangle(uint32_t seed, int count) {
+  Scene scene = empty_scene();
+  add_soup(scene, floor_of(12.0f, 3));
+  Random random(seed);
+  std::vector<glm::vec3> soup;
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec3 at = random.point(3.0) + glm::dvec3(0, 1.5, 0);
+    const double size = i % 10 == 0 ? 3.0 : i % 3 == 0 ? 0.6 : 0.1;
+    for (int k = 0; k < 3; ++k) soup.emplace_back(at + random.point(size));
+  }
+  add_soup(scene, soup);
+  return scene;
+}
+
 /// One frame and everything read back, top row first.
 struct Frame {
   std::vector<uint32_t> mask;
   GBufferImage gbuffer;
   FrameInputs inputs;
-  shared::LightWindow window;
+  shared::LightWindow window;                ///< of the first cascade
+  std::vector<shared::LightWindow> windows;  ///< of each cascade
+  shared::CascadeRange range;
   std::vector<glm::vec3> triangles_vs;
   reference::Receivers receivers;
   reference::LightPoint light;
@@ -73,10 +90,14 @@ struct Frame {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
+inline Settings with(Settings settings, const Settings& more) {
+  settings.insert(settings.end(), more.begin(), more.end());
+  return settings;
+}
+
 inline Frame render_frame(const Scene& scene, const Camera& camera, const Light& light, int width_px, int height_px,
-                          const Settings& settings = {}, const std::string& technique_name = "izb") {
-  const std::unique_ptr<Technique> technique = make_technique(technique_name);
-  const OptionSet options = technique->options();
+                          const Settings& settings, Technique& technique) {
+  const OptionSet options = technique.options();
   for (const auto& [name, value] : settings) {
     bool known = false;
     for (const Option& option : options.options())
@@ -84,20 +105,28 @@ inline Frame render_frame(const Scene& scene, const Camera& camera, const Light&
     EXPECT_TRUE(known) << "no option " << name;
   }
   Renderer renderer(scene, capabilities());
-  renderer.prepare(*technique, width_px, height_px);
+  renderer.prepare(technique, width_px, height_px);
   gpu::StageTimers timers(true);
   renderer.render(camera, light, timers);
   Frame frame;
   frame.mask = read_mask(renderer.mask());
   frame.inputs = renderer.inputs();
-  frame.window = renderer.bounds().read_window();
+  for (int i = 0; i < technique.grid().cascades; ++i) frame.windows.push_back(renderer.bounds().read_window(i));
+  frame.window = frame.windows[0];
+  frame.range = renderer.bounds().read_cascades();
   frame.gbuffer = read_gbuffer(*frame.inputs.gbuffer);
   frame.triangles_vs = frame.inputs.triangles_vs();
   frame.receivers = make_receivers(frame.gbuffer, frame.inputs);
   frame.light = make_light_point(frame.inputs.light);
-  if (technique_name == "izb") frame.list_lengths = flip_rows(technique->list_lengths(), width_px, height_px);
+  if (std::vector<float> lengths = technique.list_lengths(); !lengths.empty())
+    frame.list_lengths = flip_rows(std::move(lengths), width_px, height_px);
   frame.counts = renderer.count();
   return frame;
+}
+
+inline Frame render_frame(const Scene& scene, const Camera& camera, const Light& light, int width_px, int height_px,
+                          const Settings& settings = {}, const std::string& technique_name = "izb") {
+  return render_frame(scene, camera, light, width_px, height_px, settings, *make_technique(technique_name));
 }
 
 /// The mask of all pairs of triangle and pixel: no grid, no raster, the same test function.

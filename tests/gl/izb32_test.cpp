@@ -15,26 +15,6 @@ constexpr int width_px = 48, height_px = 36;
 const Camera camera = look_at({4.0, 5.0, 7.0}, {0, 0.6, 0}, glm::radians(50.0));
 const Settings exact{{"spp", "32"}, {"coverage", "exact"}, {"insertion", "exact"}};
 
-Settings with(Settings settings, const Settings& more) {
-  settings.insert(settings.end(), more.begin(), more.end());
-  return settings;
-}
-
-/// A floor and random triangles, large and small, some through the floor.
-Scene tangle(uint32_t seed, int count) {
-  Scene scene = empty_scene();
-  add_soup(scene, floor_of(12.0f, 3));
-  Random random(seed);
-  std::vector<glm::vec3> soup;
-  for (int i = 0; i < count; ++i) {
-    const glm::dvec3 at = random.point(3.0) + glm::dvec3(0, 1.5, 0);
-    const double size = i % 10 == 0 ? 3.0 : i % 3 == 0 ? 0.6 : 0.1;
-    for (int k = 0; k < 3; ++k) soup.emplace_back(at + random.point(size));
-  }
-  add_soup(scene, soup);
-  return scene;
-}
-
 std::vector<uint32_t> brute_force_words(const Frame& frame) {
   const FrameInputs& in = frame.inputs;
   std::vector<uint32_t> mask(frame.mask.size(), 0u);

@@ -2,11 +2,11 @@
 // 5.3 Creating the irregular z-buffer: each receiver goes into the list of its light-space texel. Nodes stand in a
 // preallocated screen-space grid, so that a node's address is its pixel and slot and a node needs nothing but a next pointer
 // (6.2); at one sample a pixel the receiver's eye distance stands beside it, since a walk that reads one reads the other.
-// Defines: ZCULL; MICRO_QUAD, and then how it is inserted (6.1): ALONG_AXIS, BY_VIEW, BY_SAMPLES, or POOL (every texel that
-// it touches; COUNT_NODES only counts them).
+// Defines: ZCULL; SPP32, and then how it is inserted (6.1): ALONG_AXIS, BY_VIEW, BY_SAMPLES, or POOL (every texel that
+// it touches; COUNT_NODES only counts them); STRIDE: in another order, for tests.
 #include "shared/bindings.h"
 #include "shared/insertion.h"
-#include "shared/lists.h"
+#include "shadow/izb/nodes.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
@@ -18,18 +18,14 @@ layout(binding = UNIT_EYE_DISTANCE) uniform sampler2D eye_distance_texture;
 layout(binding = UNIT_NORMAL) uniform sampler2D normal_texture;
 layout(binding = IMAGE_HEADS, r32ui) uniform uimage2DArray heads;
 layout(binding = IMAGE_FURTHEST, r32ui) uniform uimage2DArray furthest;
-#ifdef MICRO_QUAD
+layout(binding = IMAGE_NODES, NODE_FORMAT) writeonly uniform NODE_IMAGE nodes;
+#ifdef SPP32
 layout(std140, binding = BIND_SAMPLES) uniform SampleBlock { SampleFrame samples; };
 layout(binding = UNIT_MICRO_QUAD) uniform sampler2D micro_quad_texture;
 layout(location = 0) uniform int most_nodes;
 #endif
 #ifdef POOL
 layout(std430, binding = BIND_POOL) buffer PoolBlock { PoolCounters pool; };
-layout(binding = IMAGE_NODES, rg32ui) writeonly uniform uimage2D nodes;
-#elif defined(MICRO_QUAD)
-layout(binding = IMAGE_NODES, r32ui) writeonly uniform uimage2DArray nodes;
-#else
-layout(binding = IMAGE_NODES, rg32ui) writeonly uniform uimage2D nodes;
 #endif
 
 void raise_furthest(ivec3 texel, float depth) {
@@ -62,13 +58,13 @@ void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
     ivec2 columns = quad_columns(on_grid, guard, last, y);
     for (int x = columns.x; x <= columns.y; ++x) {
       uint next = push(ivec3(x, y, cascade), node, on_grid.deepest);
-      imageStore(nodes, pool_texel(node), uvec4(next, node_from_pixel(px, 0), 0u, 0u));
+      imageStore(nodes, NODE_TEXEL(node), node_words(next, px, 0.0));
       ++node;
     }
   }
 #endif
 }
-#elif defined(MICRO_QUAD)
+#elif defined(SPP32)
 void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
   QuadOnGrid on_grid = project_quad(light, window, quad);
 #ifdef BY_SAMPLES
@@ -115,13 +111,17 @@ void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
 void main() {
   ivec2 px = ivec2(gl_GlobalInvocationID.xy);
   if (px.x >= int(camera.size_px.x) || px.y >= int(camera.size_px.y)) return;
+#ifdef STRIDE
+  uint n = (uint(px.y) * camera.size_px.x + uint(px.x)) * STRIDE % (camera.size_px.x * camera.size_px.y);
+  px = ivec2(n % camera.size_px.x, n / camera.size_px.x);
+#endif
   float t = texelFetch(eye_distance_texture, px, 0).x;
   vec3 p = receiver_point(camera, vec2(px) + 0.5, t);
   vec3 normal = octahedral_direction(texelFetch(normal_texture, px, 0).xy);
   uint pixel_class = t > 0.0 ? receiver_class(light, p, normal) : class_sky;
   if (pixel_class != class_receiver) {
 #ifndef POOL
-#ifdef MICRO_QUAD
+#ifdef SPP32
     for (int slot = 0; slot < most_nodes; ++slot) imageStore(nodes, ivec3(px, slot), uvec4(not_a_node(pixel_class)));
 #else
     imageStore(nodes, px, uvec4(not_a_node(pixel_class)));
@@ -132,11 +132,11 @@ void main() {
 
   int cascade = cascade_of(range, int(light.grid.y), t);
   LightWindow window = windows[cascade];
-#ifdef MICRO_QUAD
+#ifdef SPP32
   insert_quad(px, cascade, window, make_micro_quad(camera, px, texelFetch(micro_quad_texture, px, 0)));
 #else
   vec3 grid = grid_position(window, light_uvd(light, light_position(light, p)));
   uint next = push(ivec3(grid_texel(light, grid), cascade), node_from_pixel(px, 0), grid.z + window.depth.z);
-  imageStore(nodes, px, uvec4(next, floatBitsToUint(t), 0u, 0u));
+  imageStore(nodes, px, node_words(next, px, t));
 #endif
 }

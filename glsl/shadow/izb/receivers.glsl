@@ -1,34 +1,17 @@
 // The lists of the irregular z-buffer, as the walk reads them, and the mask that it writes.
 // Defines: SPP32: micro-quads instead of points; POOL: nodes of exact insertion; REMOVAL: unlink pixels in full shadow (6.6),
 // which needs images; SKIP: leave unchanged masks alone (6.7).
-#include "shared/lists.h"
+#include "shadow/izb/nodes.glsl"
 
 #ifdef REMOVAL
 layout(binding = IMAGE_HEADS, r32ui) coherent uniform uimage2DArray heads;
+layout(binding = IMAGE_NODES, NODE_FORMAT) coherent uniform NODE_IMAGE nodes;
+#define LOAD(texture, texel) imageLoad(texture, texel)
 #else
 layout(binding = UNIT_HEADS) uniform usampler2DArray heads;
+layout(binding = UNIT_NODES) uniform NODE_SAMPLER nodes;
+#define LOAD(texture, texel) texelFetch(texture, texel, 0)
 #endif
-
-#if defined(SPP32) && !defined(POOL)
-#define NODE_TEXEL(node) ivec3(pixel_from_node(node), slot_from_node(node))
-#ifdef REMOVAL
-layout(binding = IMAGE_NODES, r32ui) coherent uniform uimage2DArray nodes;
-#else
-layout(binding = UNIT_NODES) uniform usampler2DArray nodes;
-#endif
-#else
-#ifdef POOL
-#define NODE_TEXEL(node) pool_texel(node)
-#else
-#define NODE_TEXEL(node) pixel_from_node(node)
-#endif
-#ifdef REMOVAL
-layout(binding = IMAGE_NODES, rg32ui) coherent uniform uimage2D nodes;
-#else
-layout(binding = UNIT_NODES) uniform usampler2D nodes;
-#endif
-#endif
-
 #ifdef SPP32
 layout(binding = UNIT_MICRO_QUAD) uniform sampler2D micro_quad_texture;
 #endif
@@ -42,22 +25,12 @@ struct Receiver {
   vec4 data;  // x: eye distance; SPP32: the whole micro-quad
 };
 
-uint load_head(ivec3 texel) {
-#ifdef REMOVAL
-  return imageLoad(heads, texel).x;
-#else
-  return texelFetch(heads, texel, 0).x;
-#endif
-}
+uint load_head(ivec3 texel) { return LOAD(heads, texel).x; }
 
 Receiver load_receiver(uint node) {
   Receiver r;
   r.node = node;
-#ifdef REMOVAL
-  uvec2 words = imageLoad(nodes, NODE_TEXEL(node)).xy;
-#else
-  uvec2 words = texelFetch(nodes, NODE_TEXEL(node), 0).xy;
-#endif
+  uvec2 words = LOAD(nodes, NODE_TEXEL(node)).xy;
   r.next = words.x;
 #ifdef POOL
   r.px = pixel_from_node(words.y);
@@ -79,15 +52,7 @@ void unlink_after(Receiver previous, ivec3 head_texel, uint next) {
   if (previous.node == no_node)
     imageStore(heads, head_texel, uvec4(next));
   else
-#ifdef SPP32
-#ifdef POOL
-    imageStore(nodes, NODE_TEXEL(previous.node), uvec4(next, node_from_pixel(previous.px, 0), 0u, 0u));
-#else
-    imageStore(nodes, NODE_TEXEL(previous.node), uvec4(next));
-#endif
-#else
-    imageStore(nodes, NODE_TEXEL(previous.node), uvec4(next, floatBitsToUint(previous.data.x), 0u, 0u));
-#endif
+    imageStore(nodes, NODE_TEXEL(previous.node), node_words(next, previous.px, previous.data.x));
 }
 #endif
 

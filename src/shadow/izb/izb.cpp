@@ -2,90 +2,25 @@
 #include "shadow/izb/izb.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "base/error.h"
 #include "frame/spine.h"
-#include "gpu/program.h"
-#include "shadow/izb/settings.h"
 #include "shadow/izb/table.h"
 #include "shared/bindings.h"
 #include "shared/lists.h"
-#include "shared/pairs.h"
 #include "shared/pyramid.h"
 
 namespace izb {
-namespace {
 
-class Izb final : public Technique {
- public:
-  TechniqueInfo info() const override {
-    return {"izb", "irregular z-buffer, alias-free hard shadows",
-            "C. Wyman, R. Hoetzlein, A. Lefohn: Frustum-Traced Raster Shadows, I3D 2015"};
-  }
-
-  OptionSet options() override { return settings_.options(); }
-  std::vector<std::string> presets() const override { return IzbSettings::preset_names(); }
-  void apply_preset(const std::string& name) override { settings_.apply(name); }
-
-  std::string missing(const gpu::Capabilities& capabilities) const override {
-    if (capabilities.subpixel_bits < 8)
-      return fmt::format("the rasteriser has {} sub-pixel bits; the guard of conservative rasterisation needs 8",
-                         capabilities.subpixel_bits);
-    return settings_.grid > capabilities.max_texture_size
-               ? fmt::format("--grid {} is beyond this driver's largest texture, {}", settings_.grid,
-                             capabilities.max_texture_size)
-               : "";
-  }
-
-  SamplePattern samples() const override { return settings_.sampling.samples(); }
-  GridRequest grid() const override {
-    return {settings_.grid, settings_.nl_cull, settings_.cascades, settings_.table() ? settings_.table_side() : 0};
-  }
-
-  void resize(int width_px, int height_px) override;
-  void render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) override;
-  Counts count(const FrameInputs& in, Visibility& out) override;
-  Counts memory() const override;
-  std::vector<float> list_lengths() const override;
-  std::vector<uint64_t> list_histogram() const override;
-  std::vector<gpu::ProgramSpec> program_specs() const override { return izb_program_specs(); }
-
- private:
-  /// How the casters are drawn.
-  struct Pass {
-    IzbProgram program;
-    bool culled;
-  };
-
-  void build(const FrameInputs& in);
-  void count_pool(const FrameInputs& in);
-  void zcull();
-  void pyramid();
-  void visibility(const FrameInputs& in, Visibility& out, const Pass& pass);
-  void bind_lists(const Visibility& out) const;
-  void draw(const FrameInputs& in, const Pass& pass);
-  shared::Counters visibility_counted(const FrameInputs& in, Visibility& out, const Pass& pass);
-
-  const gpu::Program& program(IzbProgram p);
-  template <typename Visit>
-  void for_each_list(Visit&& visit) const;
-
-  IzbSettings settings_, built_;  ///< as the options say; as the programs and textures were made
-  int width_px_ = 0, height_px_ = 0;
-  std::vector<gpu::Program> programs_;
-  gpu::Texture heads_;     ///< light-space grids of head pointers, one a cascade
-  gpu::Texture nodes_;     ///< screen-space grid of nodes, or the pool of exact insertion
-  gpu::Texture furthest_;  ///< bits of the furthest node's depth
-  gpu::Texture depth_;     ///< the same as a depth buffer
-  gpu::Texture pyramid_;   ///< the same for squares of texels, see shared/pyramid.h
-  gpu::Framebuffer light_framebuffer_;
-  std::vector<gpu::Framebuffer> zcull_framebuffers_;
-  gpu::VertexArray no_attributes_;
-  gpu::Buffer counters_, pairs_, pool_counter_;
-  gpu::BufferTexture table_;
-  gpu::Query overflow_;
-};
+std::string Izb::missing(const gpu::Capabilities& capabilities) const {
+  if (capabilities.subpixel_bits < 8)
+    return fmt::format("the rasteriser has {} sub-pixel bits; the guard of conservative rasterisation needs 8",
+                       capabilities.subpixel_bits);
+  return settings_.grid > capabilities.max_texture_size
+             ? fmt::format("--grid {} is beyond this driver's largest texture, {}", settings_.grid,
+                           capabilities.max_texture_size)
+             : "";
+}
 
 const gpu::Program& Izb::program(IzbProgram p) {
   gpu::Program& made = programs_[static_cast<size_t>(p)];
@@ -284,83 +219,11 @@ shared::Counters Izb::visibility_counted(const FrameInputs& in, Visibility& out,
   return counters_.read<shared::Counters>(1)[0];
 }
 
-Counts Izb::count(const FrameInputs& in, Visibility& out) {
-  const shared::Counters all = visibility_counted(in, out, {IzbProgram::visibility_counted_all, false});
-  const shared::Counters culled =
-      built_.zcull ? visibility_counted(in, out, {IzbProgram::visibility_counted, true}) : all;
-  if (built_.removal) build(in);
-  const std::vector<uint64_t> histogram = list_histogram();
-  uint64_t nodes = 0, lists = 0;
-  for (size_t length = 1; length < histogram.size(); ++length) {
-    nodes += histogram[length] * length;
-    lists += histogram[length];
-  }
-  return {{"triangles", all.triangles},
-          {"triangles_after_zcull", culled.triangles},
-          {"fragments", all.fragments},
-          {"fragments_after_zcull", culled.fragments},
-          {"visibility_tests", culled.visibility_tests},
-          {"nodes", nodes},
-          {"lists", lists},
-          {"longest_list", histogram.empty() ? 0 : histogram.size() - 1},
-          {"pairs_in_double", culled.pairs},
-          {"nodes_removed", culled.removed},
-          {"masks_unchanged", culled.unchanged}};
-}
-
-// Calls visit(pixels of one list) for each list. Throws std::logic_error where a node stands in two lists.
-template <typename Visit>
-void Izb::for_each_list(Visit&& visit) const {
-  const std::vector<uint32_t> heads = heads_.read_uint();
-  const bool pairs = nodes_.format() == GL_RG32UI;  // next pointer and another word; else the pointer alone
-  const size_t words = pairs ? 2 : 1;
-  std::vector<uint32_t> nodes(size_t(nodes_.width_px()) * nodes_.height_px() * nodes_.layers() * words);
-  nodes_.read_bytes(pairs ? GL_RG_INTEGER : GL_RED_INTEGER, GL_UNSIGNED_INT, nodes.size() * sizeof(uint32_t),
-                    nodes.data());
-  const auto at = [&](uint32_t node) -> size_t {
-    if (built_.pool()) return node;
-    const glm::ivec2 px = shared::pixel_from_node(node);
-    const int slot = built_.many_samples() ? shared::slot_from_node(node) : 0;
-    return (size_t(slot) * nodes_.height_px() + px.y) * nodes_.width_px() + px.x;
-  };
-  std::vector<bool> seen(nodes.size() / words);
-  std::vector<size_t> pixels;
-  for (const uint32_t head : heads) {
-    pixels.clear();
-    for (uint32_t node = head; node != shared::no_node; node = nodes[words * at(node)]) {
-      if (seen[at(node)]) throw std::logic_error("an IZB node stands in two lists");
-      seen[at(node)] = true;
-      const glm::ivec2 px = shared::pixel_from_node(built_.pool() ? nodes[words * at(node) + 1] : node);
-      pixels.push_back(size_t(px.y) * width_px_ + px.x);
-    }
-    visit(pixels);
-  }
-}
-
-std::vector<float> Izb::list_lengths() const {
-  std::vector<float> lengths(size_t(width_px_) * height_px_, 0.0f);
-  for_each_list([&](const std::vector<size_t>& pixels) {
-    for (const size_t pixel : pixels) lengths[pixel] = std::max(lengths[pixel], static_cast<float>(pixels.size()));
-  });
-  return lengths;
-}
-
-std::vector<uint64_t> Izb::list_histogram() const {
-  std::vector<uint64_t> histogram;
-  for_each_list([&](const std::vector<size_t>& pixels) {
-    if (histogram.size() <= pixels.size()) histogram.resize(pixels.size() + 1);
-    ++histogram[pixels.size()];
-  });
-  return histogram;
-}
-
 Counts Izb::memory() const {
   return {{"heads", heads_.bytes()},       {"nodes", nodes_.bytes()},
           {"furthest", furthest_.bytes()}, {"zcull", depth_.bytes() + pyramid_.bytes()},
           {"table", table_.bytes()},       {"pairs", pairs_.bytes() + counters_.bytes()}};
 }
-
-}  // namespace
 
 std::unique_ptr<Technique> make_izb() {
   return std::make_unique<Izb>();

@@ -2,9 +2,80 @@
 // Irregular z-buffer shadows after Wyman, Hoetzlein and Lefohn, "Frustum-Traced Raster Shadows: Revisiting Irregular
 // Z-Buffers", I3D 2015.
 #pragma once
+#include "gpu/program.h"
+#include "shadow/izb/internals.h"
+#include "shadow/izb/settings.h"
 #include "shadow/technique.h"
+#include "shared/pairs.h"
 
 namespace izb {
+
+class Izb final : public Technique {
+ public:
+  TechniqueInfo info() const override {
+    return {"izb", "irregular z-buffer, alias-free hard shadows",
+            "C. Wyman, R. Hoetzlein, A. Lefohn: Frustum-Traced Raster Shadows, I3D 2015"};
+  }
+
+  OptionSet options() override { return settings_.options(); }
+  std::vector<std::string> presets() const override { return IzbSettings::preset_names(); }
+  void apply_preset(const std::string& name) override { settings_.apply(name); }
+
+  std::string missing(const gpu::Capabilities& capabilities) const override;
+
+  SamplePattern samples() const override { return settings_.sampling.samples(); }
+  GridRequest grid() const override {
+    return {settings_.grid, settings_.nl_cull, settings_.cascades, settings_.table() ? settings_.table_side() : 0};
+  }
+
+  void resize(int width_px, int height_px) override;
+  void render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) override;
+  Counts count(const FrameInputs& in, Visibility& out) override;
+  Counts memory() const override;
+  std::vector<float> list_lengths() const override;
+  std::vector<uint64_t> list_histogram() const override;
+  std::vector<gpu::ProgramSpec> program_specs() const override { return izb_program_specs(); }
+
+  /// Reads back what `build` and `zcull` left of the last frame; with removal the lists are what `visibility` left.
+  /// Throws std::logic_error where a node stands in two lists.
+  IzbInternals internals() const;
+  /// What options() is bound to, and what is no option.
+  IzbSettings& settings() { return settings_; }
+
+ private:
+  /// How the casters are drawn.
+  struct Pass {
+    IzbProgram program;
+    bool culled;
+  };
+
+  void build(const FrameInputs& in);
+  void count_pool(const FrameInputs& in);
+  void zcull();
+  void pyramid();
+  void visibility(const FrameInputs& in, Visibility& out, const Pass& pass);
+  void bind_lists(const Visibility& out) const;
+  void draw(const FrameInputs& in, const Pass& pass);
+  shared::Counters visibility_counted(const FrameInputs& in, Visibility& out, const Pass& pass);
+
+  const gpu::Program& program(IzbProgram p);
+  IzbLists read_lists() const;
+
+  IzbSettings settings_, built_;  ///< as the options say; as the programs and textures were made
+  int width_px_ = 0, height_px_ = 0;
+  std::vector<gpu::Program> programs_;
+  gpu::Texture heads_;     ///< light-space grids of head pointers, one a cascade
+  gpu::Texture nodes_;     ///< screen-space grid of nodes, or the pool of exact insertion
+  gpu::Texture furthest_;  ///< bits of the furthest node's depth
+  gpu::Texture depth_;     ///< the same as a depth buffer
+  gpu::Texture pyramid_;   ///< the same for squares of texels, see shared/pyramid.h
+  gpu::Framebuffer light_framebuffer_;
+  std::vector<gpu::Framebuffer> zcull_framebuffers_;
+  gpu::VertexArray no_attributes_;
+  gpu::Buffer counters_, pairs_, pool_counter_;
+  gpu::BufferTexture table_;
+  gpu::Query overflow_;
+};
 
 std::unique_ptr<Technique> make_izb();
 

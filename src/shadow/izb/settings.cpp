@@ -83,13 +83,14 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s) {
   };
   const auto build = [&](bool count) -> gpu::ProgramSpec {
     define(s.zcull, "ZCULL");
-    define(s.many_samples(), "MICRO_QUAD");
+    define(s.many_samples(), "SPP32");
     if (s.many_samples())
       define(true, s.insertion == "approximate" ? "ALONG_AXIS"
                    : s.insertion == "nv"        ? "BY_VIEW"
                    : s.insertion == "samples"   ? "BY_SAMPLES"
                                                 : "POOL");
     define(count, "COUNT_NODES");
+    if (s.insertion_stride != 1) defines["STRIDE"] = fmt::format("{}u", s.insertion_stride);
     return {"izb build", {folder + "3_build.comp.glsl"}, defines};
   };
   switch (program) {
@@ -154,6 +155,8 @@ std::vector<gpu::ProgramSpec> izb_program_specs() {
     }
     settings = IzbSettings();
   }
+  settings.insertion_stride = 7;
+  add(settings);
   return all;
 }
 

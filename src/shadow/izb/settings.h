@@ -18,6 +18,9 @@ struct IzbSettings {
   bool zcull = true, zcull_pyramid = true, nl_cull = true;
   bool removal = false, unchanged_skip = false, pipelining = false;
   int pair_capacity = 1 << 17;
+  /// No option, for tests: the order of insertion is n * stride modulo the number of pixels, to which the stride is
+  /// coprime. Nothing but the order within the lists may depend on it.
+  int insertion_stride = 1;
 
   /// Declares every option, bound to this object.
   OptionSet options();
@@ -57,7 +60,8 @@ enum class IzbProgram {
 
 gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& settings);
 
-/// Every program of the defaults, of each option alone from the defaults, and of the presets.
+/// Every program of the defaults, of each option alone from the defaults, of the presets, and of another order of
+/// insertion.
 std::vector<gpu::ProgramSpec> izb_program_specs();
 
 }  // namespace izb

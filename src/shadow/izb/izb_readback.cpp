@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// What a frame left on the GPU, read back: counts, lists, furthest depths, z-cull.
+#include <algorithm>
+#include <stdexcept>
+
+#include "shadow/izb/izb.h"
+#include "shared/lists.h"
+
+namespace izb {
+
+Counts Izb::count(const FrameInputs& in, Visibility& out) {
+  const shared::Counters all = visibility_counted(in, out, {IzbProgram::visibility_counted_all, false});
+  const shared::Counters culled =
+      built_.zcull ? visibility_counted(in, out, {IzbProgram::visibility_counted, true}) : all;
+  if (built_.removal) build(in);
+  const std::vector<uint64_t> histogram = list_histogram();
+  uint64_t nodes = 0, lists = 0;
+  for (size_t length = 1; length < histogram.size(); ++length) {
+    nodes += histogram[length] * length;
+    lists += histogram[length];
+  }
+  return {{"triangles", all.triangles},
+          {"triangles_after_zcull", culled.triangles},
+          {"fragments", all.fragments},
+          {"fragments_after_zcull", culled.fragments},
+          {"visibility_tests", culled.visibility_tests},
+          {"nodes", nodes},
+          {"lists", lists},
+          {"longest_list", histogram.empty() ? 0 : histogram.size() - 1},
+          {"pairs_in_double", culled.pairs},
+          {"nodes_removed", culled.removed},
+          {"masks_unchanged", culled.unchanged}};
+}
+
+IzbLists Izb::read_lists() const {
+  const std::vector<uint32_t> heads = heads_.read_uint();
+  const bool pairs = nodes_.format() == GL_RG32UI;  // next pointer and another word; else the pointer alone
+  const size_t words = pairs ? 2 : 1;
+  const std::vector<uint32_t> nodes =
+      nodes_.read<uint32_t>(pairs ? GL_RG_INTEGER : GL_RED_INTEGER, GL_UNSIGNED_INT, static_cast<int>(words));
+  const auto at = [&](uint32_t node) -> size_t {
+    if (built_.pool()) return node;
+    const glm::ivec2 px = shared::pixel_from_node(node);
+    const int slot = built_.many_samples() ? shared::slot_from_node(node) : 0;
+    return (size_t(slot) * nodes_.height_px() + px.y) * nodes_.width_px() + px.x;
+  };
+  std::vector<bool> seen(nodes.size() / words);
+  IzbLists lists;
+  lists.first.reserve(heads.size() + 1);
+  for (const uint32_t head : heads) {
+    lists.first.push_back(static_cast<uint32_t>(lists.nodes.size()));
+    for (uint32_t node = head; node != shared::no_node; node = nodes[words * at(node)]) {
+      if (seen[at(node)]) throw std::logic_error("an IZB node stands in two lists");
+      seen[at(node)] = true;
+      lists.nodes.push_back(built_.pool() ? nodes[words * at(node) + 1] : node);
+    }
+  }
+  lists.first.push_back(static_cast<uint32_t>(lists.nodes.size()));
+  return lists;
+}
+
+IzbInternals Izb::internals() const {
+  IzbInternals all;
+  all.grid = built_.grid;
+  all.cascades = built_.cascades;
+  all.lists = read_lists();
+  // The images hold the floats' bits, since atomics know only integers.
+  const auto floats = [](const gpu::Texture& bits) { return bits.read<float>(GL_RED_INTEGER, GL_UNSIGNED_INT, 1); };
+  if (built_.zcull) {
+    all.furthest = floats(furthest_);
+    all.zcull = depth_.read<uint16_t>(GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT, 1);
+  }
+  if (built_.pyramid()) {
+    all.pyramid = floats(pyramid_);
+    all.pyramid_size = {pyramid_.width_px(), pyramid_.height_px()};
+  }
+  return all;
+}
+
+std::vector<float> Izb::list_lengths() const {
+  const IzbLists lists = read_lists();
+  std::vector<float> lengths(size_t(width_px_) * height_px_, 0.0f);
+  for (size_t i = 0; i < lists.count(); ++i)
+    for (const uint32_t node : lists[i]) {
+      const glm::ivec2 px = shared::pixel_from_node(node);
+      float& longest = lengths[size_t(px.y) * width_px_ + px.x];
+      longest = std::max(longest, static_cast<float>(lists[i].size()));
+    }
+  return lengths;
+}
+
+std::vector<uint64_t> Izb::list_histogram() const {
+  const IzbLists lists = read_lists();
+  std::vector<uint64_t> histogram;
+  for (size_t i = 0; i < lists.count(); ++i) {
+    if (histogram.size() <= lists[i].size()) histogram.resize(lists[i].size() + 1);
+    ++histogram[lists[i].size()];
+  }
+  return histogram;
+}
+
+}  // namespace izb
