@@ -18,19 +18,22 @@ SHARED vec3 micro_quad_uvd(IN(LightFrame) light, IN(MicroQuad) m, IN(vec2) o) {
   return light_uvd(light, p);
 }
 
+// Least depth of a point of the micro-quad: each is within `extent` of the centre.
+SHARED float least_depth(IN(MicroQuad) m, IN(vec3) p_ls) { return max(p_ls.z - m.extent, 0.05f * p_ls.z); }
+
 // uv_error and d_error for any point of the micro-quad: such a point is up to `extent` further out, and for a positional
-// light down to 1/20 of the centre's depth, where the division magnifies.
+// light nearer, where the division magnifies.
 SHARED float quad_uv_error(IN(LightFrame) light, IN(MicroQuad) m, IN(vec3) p_ls) {
   float moved = 16.0f * unit_roundoff * (norm1(m.center) + m.extent + norm1(vec3(light.origin)));
   if (!is_positional(light)) return moved;
-  float z = 0.05f * p_ls.z;
+  float z = least_depth(m, p_ls);
   return 2.0f * moved / z * (1.0f + (max(abs(p_ls.x), abs(p_ls.y)) + m.extent) / z);
 }
 
 SHARED float quad_d_error(IN(LightFrame) light, IN(MicroQuad) m, IN(vec3) p_ls) {
   float moved = 16.0f * unit_roundoff * (norm1(m.center) + m.extent + norm1(vec3(light.origin)));
   if (!is_positional(light)) return moved;
-  float z = 0.05f * p_ls.z;
+  float z = least_depth(m, p_ls);
   return 2.0f * moved / (z * z);
 }
 
