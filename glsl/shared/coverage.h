@@ -110,47 +110,55 @@ SHARED bool occluded_sample(IN(QuadPlanes) t, IN(vec2) o) {
 }
 
 // ---- the same in single precision ---------------------------------------------------------------------------------
+//
+// fx = f0 slope - n.along, and with f0 = n.first - n.center the terms in n.center cancel: fx = tilt n.first - n.x width, where an
+// orthographic camera has n.z in place of n.first. So a line takes one product with the receiver and three floats of it.
 
 // An edge's plane, by vertices in the order of their positions: what both triangles of a shared edge compute alike.
 struct EdgePlane {
   vec3 first;
   vec3 normal;
-  float error;  // edge_error_of
-  bool swapped;
+  float turned;  // turned_by
+  float error;   // edge_error_of
 };
 
+// Of a triangle whose vertices stand in the order of their positions: the edges ab, bc, ac.
 struct QuadTriangle {
   EdgePlane edge0;
   EdgePlane edge1;
   EdgePlane edge2;
-  vec3 corner;
   vec3 plane;  // unit, towards the light
+  float plane_turned;
   float plane_error;
   float vertex_norm1;
   bool sided;          // the plane's side to the light is certain
   bool facing;         // that side, by the triangle's own order
 };
 
-SHARED EdgePlane make_edge_plane(IN(LightFrame) light, IN(vec3) a, IN(vec3) b) {
+SHARED float turned_by(IN(CameraFrame) camera, IN(vec3) n, IN(vec3) first) {
+  PRECISE float along = (n.x * first.x + n.y * first.y) + n.z * first.z;
+  return is_perspective(camera) ? along : n.z;
+}
+
+SHARED EdgePlane make_edge_plane(IN(CameraFrame) camera, IN(LightFrame) light, IN(vec3) first, IN(vec3) second) {
   EdgePlane e;
-  e.swapped = position_less(b, a);
-  e.first = e.swapped ? b : a;
-  vec3 edge = e.swapped ? a - b : b - a;
-  vec3 w = is_positional(light) ? vec3(light.origin) - e.first : vec3(light.to_light);
+  e.first = first;
+  vec3 edge = second - first;
+  vec3 w = is_positional(light) ? vec3(light.origin) - first : vec3(light.to_light);
   PRECISE float x = edge.y * w.z - edge.z * w.y;
   PRECISE float y = edge.z * w.x - edge.x * w.z;
   PRECISE float z = edge.x * w.y - edge.y * w.x;
   e.normal = vec3(x, y, z);
+  e.turned = turned_by(camera, e.normal, first);
   e.error = edge_error_of(edge, w);
   return e;
 }
 
-SHARED QuadTriangle make_quad_triangle(IN(LightFrame) light, IN(vec3) a, IN(vec3) b, IN(vec3) c) {
+SHARED QuadTriangle make_quad_triangle(IN(CameraFrame) camera, IN(LightFrame) light, IN(vec3) a, IN(vec3) b, IN(vec3) c) {
   QuadTriangle t;
-  t.edge0 = make_edge_plane(light, a, b);
-  t.edge1 = make_edge_plane(light, b, c);
-  t.edge2 = make_edge_plane(light, c, a);
-  t.corner = a;
+  t.edge0 = make_edge_plane(camera, light, a, b);
+  t.edge1 = make_edge_plane(camera, light, b, c);
+  t.edge2 = make_edge_plane(camera, light, a, c);
   vec3 w = is_positional(light) ? vec3(light.origin) - a : vec3(light.to_light);
   vec3 n = cross(b - a, c - a);
   float area_error = edge_error_of(b - a, c - a);
@@ -160,19 +168,24 @@ SHARED QuadTriangle make_quad_triangle(IN(LightFrame) light, IN(vec3) a, IN(vec3
   t.sided = abs(side) > 2.0f * area_error * norm1(w) && length2 > 1.0e-30f && length2 < 1.0e37f;
   t.facing = side > 0.0f;
   t.plane = n * (side < 0.0f ? -scale : scale);
+  t.plane_turned = turned_by(camera, t.plane, a);
   t.plane_error = 2.0f * area_error * scale + 16.0f * unit_roundoff;
   t.vertex_norm1 = max_norm1(a, b, c);
   return t;
 }
 
-// f0, fx, fy of a plane over the micro-quad.
-SHARED vec3 quad_line(IN(vec3) n, IN(vec3) q, IN(MicroQuad) m) {
+// f0, fx, fy of a plane over the micro-quad; q: from its center to a point of the plane.
+SHARED vec3 quad_line(IN(vec3) n, float turned, IN(vec3) q, IN(MicroQuad) m) {
   PRECISE float f0 = (n.x * q.x + n.y * q.y) + n.z * q.z;
-  PRECISE float nx = (n.x * m.along_x.x + n.y * m.along_x.y) + n.z * m.along_x.z;
-  PRECISE float ny = (n.x * m.along_y.x + n.y * m.along_y.y) + n.z * m.along_y.z;
-  PRECISE float fx = f0 * m.slope.x - nx;
-  PRECISE float fy = f0 * m.slope.y - ny;
+  PRECISE float fx = m.tilt.x * turned - n.x * m.width.x;
+  PRECISE float fy = m.tilt.y * turned - n.y * m.width.y;
   return vec3(f0, fx, fy);
+}
+
+// Bounds the error of a quad_line over the pixel: see docs/VALIDATION.md.
+SHARED float quad_line_error(float plane_error, float vertex_norm1, IN(vec3) q, IN(MicroQuad) m) {
+  return plane_error *
+         (norm1(q) + 0.75f * ((abs(m.tilt.x) + abs(m.tilt.y)) * vertex_norm1 + (m.width.x + m.width.y)));
 }
 
 SHARED_END

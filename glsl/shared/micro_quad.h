@@ -17,6 +17,8 @@ struct MicroQuad {
   vec3 along_x;
   vec3 along_y;
   vec2 slope;      // perspective: change of 1/t a pixel, as a share of 1/t; orthographic: 0
+  vec2 width;      // of the footprint facing the viewer
+  vec2 tilt;       // slopes of the G-buffer: n.along = n.width - tilt n.turn, with turn = center or, orthographic, z
   float extent;    // bounds |along_x|_1 + |along_y|_1 and, times 4u, their errors
   float t;         // eye distance of the center
   float overhang;  // overhang_of
@@ -82,6 +84,8 @@ SHARED MicroQuad make_micro_quad(IN(CameraFrame) camera, IN(ivec2) px, IN(vec4) 
   m.along_x = along_x;
   m.along_y = along_y;
   m.slope = perspective ? vec2(data.y, data.z) : vec2(0.0f);
+  m.width = vec2(wx, wy);
+  m.tilt = vec2(data.y, data.z);
   m.extent = (wx + wy) + norm1(turn) * (abs(data.y) + abs(data.z));
   return m;
 }

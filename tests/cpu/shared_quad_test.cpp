@@ -90,19 +90,6 @@ TEST(SharedTable, OppositeLinesHaveComplementaryBits) {
   }
 }
 
-TEST(SharedCoverage, TrianglesThatShareAnEdgeGetOneLineWithTwoSides) {
-  Random random(92);
-  const glm::dvec3 lamp(1.0, 8.0, -3.0);
-  for (int i = 0; i < 2000; ++i) {
-    const shared::LightFrame light = make_light(random.direction(), i % 2 ? &lamp : nullptr);
-    const glm::vec3 a(random.point(5.0)), b(random.point(5.0));
-    const shared::EdgePlane one = shared::make_edge_plane(light, a, b), other = shared::make_edge_plane(light, b, a);
-    ASSERT_EQ(one.first, other.first);
-    ASSERT_EQ(one.normal, other.normal);
-    ASSERT_NE(one.swapped, other.swapped);
-  }
-}
-
 /// A receiver on the plane of a random triangle, and its micro-quad.
 struct Pixel {
   glm::ivec2 px;

@@ -27,10 +27,10 @@ layout(location = 4) flat in uvec2 g_id;
 
 #ifdef SPP32
 #define Triangle QuadTriangle
-#define make_triangle make_quad_triangle
+Triangle make_triangle(CameraFrame eye) { return make_quad_triangle(eye, light, g_a, g_b, g_c); }
 #else
 #define Triangle TrianglePlanes
-#define make_triangle make_planes
+Triangle make_triangle(CameraFrame eye) { return make_planes(light, g_a, g_b, g_c); }
 #endif
 
 void add_pair(ivec2 px) {
@@ -101,8 +101,8 @@ bool walk(CameraFrame eye, Triangle triangle, ivec3 head_texel, inout Walk w, ou
 
 void main() {
   if (any(lessThan(gl_FragCoord.xy, g_box.xy)) || any(greaterThan(gl_FragCoord.xy, g_box.zw))) discard;
-  Triangle triangle = make_triangle(light, g_a, g_b, g_c);
   CameraFrame eye = camera;  // read once, not in every round of the loop
+  Triangle triangle = make_triangle(eye);
 #ifdef CASCADES
   ivec3 head_texel = ivec3(gl_FragCoord.xy, gl_Layer);
 #else

@@ -3,6 +3,7 @@
 // test in the fragment shader. CASCADES: into the layers [first, end) of `cascades`, at most CASCADES of them (6.4).
 #include "shared/bindings.h"
 #include "shared/footprint.h"
+#include "shared/occlusion.h"
 #include "shared/pairs.h"
 #include "shared/pyramid.h"
 
@@ -52,11 +53,20 @@ bool behind_all(Footprint f, int cascade) {
 }
 #endif
 
-void emit(vec3 corner, Footprint f, int cascade) {
+#ifdef SPP32
+void order(inout vec3 first, inout vec3 second) {
+  bool swapped = position_less(second, first);
+  vec3 kept = first;
+  first = swapped ? second : first;
+  second = swapped ? kept : second;
+}
+#endif
+
+void emit(vec3 corner, Footprint f, vec3 a, vec3 b, vec3 c, int cascade) {
   gl_Position = vec4(corner.xy * (2.0 / float(light.grid.x)) - 1.0, corner.z, 1.0);
-  g_a = v_position_vs[0];
-  g_b = v_position_vs[1];
-  g_c = v_position_vs[2];
+  g_a = a;
+  g_b = b;
+  g_c = c;
   g_box = f.box;
   g_id = uvec2(v_instance[0] + 1u, uint(gl_PrimitiveIDIn));
 #ifdef CASCADES
@@ -65,9 +75,8 @@ void emit(vec3 corner, Footprint f, int cascade) {
   EmitVertex();
 }
 
-void spawn(int cascade) {
-  Footprint f =
-      make_footprint(light, windows[cascade], v_position_vs[0], v_position_vs[1], v_position_vs[2], dilation);
+void spawn(vec3 a, vec3 b, vec3 c, int cascade) {
+  Footprint f = make_footprint(light, windows[cascade], a, b, c, dilation);
   if (f.count == 0) return;
 #ifdef PYRAMID
   if (behind_all(f, cascade)) return;
@@ -75,17 +84,24 @@ void spawn(int cascade) {
 #ifdef COUNT
   atomicAdd(counters.triangles, 1u);
 #endif
-  emit(f.p0, f, cascade);
-  emit(f.p1, f, cascade);
-  emit(f.p2, f, cascade);
-  if (f.count == 4) emit(f.p3, f, cascade);
+  emit(f.p0, f, a, b, c, cascade);
+  emit(f.p1, f, a, b, c, cascade);
+  emit(f.p2, f, a, b, c, cascade);
+  if (f.count == 4) emit(f.p3, f, a, b, c, cascade);
   EndPrimitive();
 }
 
 void main() {
+  vec3 a = v_position_vs[0], b = v_position_vs[1], c = v_position_vs[2];
+#if defined(SPP32) && !defined(IN_DOUBLE)
+  // By position, once a triangle: two triangles that share an edge then give the same numbers for it.
+  order(a, b);
+  order(b, c);
+  order(a, b);
+#endif
 #ifdef CASCADES
-  for (int cascade = cascades.x; cascade < cascades.y; ++cascade) spawn(cascade);
+  for (int cascade = cascades.x; cascade < cascades.y; ++cascade) spawn(a, b, c, cascade);
 #else
-  spawn(0);
+  spawn(a, b, c, 0);
 #endif
 }

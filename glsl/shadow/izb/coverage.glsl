@@ -45,29 +45,23 @@ Sides sides_of(vec3 line, float error, inout bool unsure) {
 }
 #endif
 
-// Bounds the error of a quad_line over the pixel: see docs/VALIDATION.md.
-float line_error(float plane_error, vec3 q, MicroQuad quad) {
-  float steepness = abs(quad.slope.x) + abs(quad.slope.y);
-  return plane_error * (norm1(q) * (1.0 + 0.5 * steepness) + 0.75 * quad.extent);
-}
-
-Sides edge_sides(EdgePlane e, MicroQuad quad, inout bool unsure) {
+Sides edge_sides(EdgePlane e, float vertex_norm1, MicroQuad quad, inout bool unsure) {
   vec3 q = e.first - quad.center;
-  Sides s = sides_of(quad_line(e.normal, q, quad), line_error(e.error, q, quad), unsure);
-  return e.swapped ? Sides(s.below, s.above) : s;
+  return sides_of(quad_line(e.normal, e.turned, q, quad), quad_line_error(e.error, vertex_norm1, q, quad), unsure);
 }
 
 // The occluded samples; `unsure`: the answer needs double precision.
 uint classify_quad(CameraFrame eye, QuadTriangle t, MicroQuad quad, out bool unsure) {
   bool edges_unsure = false, plane_unsure = false;
-  Sides e0 = edge_sides(t.edge0, quad, edges_unsure);
-  Sides e1 = edge_sides(t.edge1, quad, edges_unsure);
-  Sides e2 = edge_sides(t.edge2, quad, edges_unsure);
-  vec3 q = t.corner - quad.center;
-  vec3 height = quad_line(t.plane, q, quad);
+  Sides e0 = edge_sides(t.edge0, t.vertex_norm1, quad, edges_unsure);
+  Sides e1 = edge_sides(t.edge1, t.vertex_norm1, quad, edges_unsure);
+  Sides ac = edge_sides(t.edge2, t.vertex_norm1, quad, edges_unsure);
+  Sides e2 = Sides(ac.below, ac.above);
+  vec3 q = t.edge0.first - quad.center;
+  vec3 height = quad_line(t.plane, t.plane_turned, q, quad);
   float bias = quad_bias(eye, quad.center, quad.t, t.vertex_norm1, quad.overhang);
   height -= bias * vec3(1.0, quad.slope);
-  Sides h = sides_of(height, line_error(t.plane_error, q, quad), plane_unsure);
+  Sides h = sides_of(height, quad_line_error(t.plane_error, t.vertex_norm1, q, quad), plane_unsure);
   if (!t.sided) h = Sides(0u, 0u);
 
   // One sign on all three edges is inside, two certain and different signs are outside, whatever the winding.
