@@ -1,31 +1,18 @@
 #version 450 core
-// 5.2, 6.4 The visible depth range, which the cascades share. Persistent threads, as in 2_bounds.
-#include "shared/bindings.h"
-#include "shared/bounds.h"
+// 5.2, 6.4 The visible depth range, which the cascades share.
+#include "frame/for_each_receiver.glsl"
 
-layout(local_size_x = 64) in;
-
-layout(std140, binding = BIND_CAMERA) uniform CameraBlock { CameraFrame camera; };
-layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
 layout(std430, binding = BIND_CASCADES) buffer CascadeBlock { CascadeRange range; };
-layout(binding = UNIT_EYE_DISTANCE) uniform sampler2D eye_distance_texture;
-layout(binding = UNIT_NORMAL) uniform sampler2D normal_texture;
+
+float nearest = 3.0e38, furthest = 0.0;
+
+void visit(CameraFrame eye, LightFrame lamp, ivec2 px, float t, vec3 p) {
+  nearest = min(nearest, t);
+  furthest = max(furthest, t);
+}
 
 void main() {
-  CameraFrame eye = camera;
-  LightFrame lamp = light;
-  float nearest = 3.0e38, furthest = 0.0;
-  for (uint y = gl_WorkGroupID.x; y < eye.size_px.y; y += gl_NumWorkGroups.x)
-    for (uint x = gl_LocalInvocationID.x; x < eye.size_px.x; x += gl_WorkGroupSize.x) {
-      ivec2 px = ivec2(x, y);
-      float t = texelFetch(eye_distance_texture, px, 0).x;
-      vec3 p = receiver_point(eye, vec2(px) + 0.5, t);
-      vec3 normal = octahedral_direction(texelFetch(normal_texture, px, 0).xy);
-      if (t > 0.0 && receiver_class(lamp, p, normal) == class_receiver) {
-        nearest = min(nearest, t);
-        furthest = max(furthest, t);
-      }
-    }
+  for_each_receiver();
   if (furthest == 0.0) return;
   atomicMin(range.reached.x, floatBitsToUint(nearest));
   atomicMax(range.reached.y, floatBitsToUint(furthest));

@@ -2,16 +2,13 @@
 // izb render: one frame as OpenEXR, PNG and JSON.
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <filesystem>
-#include <map>
-#include <optional>
 #include <span>
 
 #include "app/commands.h"
+#include "app/outputs.h"
 #include "app/peer.h"
 #include "app/results.h"
 #include "base/error.h"
-#include "base/file.h"
 #include "base/json_text.h"
 #include "base/log.h"
 #include "base/progress.h"
@@ -85,33 +82,17 @@ void print_table(const nlohmann::json& json) {
   fmt::print("{}", counts.str());
 }
 
-/// A device (/dev/null) may take several outputs, a file one.
-void refuse_one_file_for_two(const RenderOptions& o) {
-  namespace fs = std::filesystem;
-  std::map<fs::path, const char*> taken;
-  for (const auto& [option, path] :
-       {std::pair{"--output", &o.output}, {"--preview", &o.preview}, {"--json", &o.json}}) {
-    std::error_code ignored;
-    const fs::file_status status = fs::status(*path, ignored);
-    if (path->empty() || (fs::exists(status) && !fs::is_regular_file(status))) continue;
-    const auto [other, is_new] = taken.try_emplace(fs::weakly_canonical(*path, ignored), option);
-    if (!is_new) throw UsageError(fmt::format("{} and {} name the same file, '{}'", other->second, option, *path));
-  }
-}
-
 int render(RenderOptions& o) {
   if (o.output.empty() && o.preview.empty() && o.json.empty())
     throw UsageError("nothing to write: give -o FILE.exr, --preview FILE.png or --json FILE.json");
-  refuse_one_file_for_two(o);
-  // Opened first: an output that cannot be written is known before the work.
-  std::optional<AtomicFile> exr, png, text;
-  if (!o.output.empty()) exr.emplace(o.output);
-  if (!o.preview.empty()) png.emplace(o.preview);
-  if (!o.json.empty()) text.emplace(o.json);
-  Session s(o.frame, *o.technique, o.scene);
+  Outputs outputs;
+  AtomicFile* const exr = outputs.open("--output", o.output);
+  AtomicFile* const png = outputs.open("--preview", o.preview);
+  AtomicFile* const text = outputs.open("--json", o.json);
+  Session s(o.frame, std::move(o.technique), o.scene);
   const Timed timed = render_frames(s, o);
 
-  nlohmann::json json = provenance(s, o.frame, *o.technique, o.arguments, o.scene);
+  nlohmann::json json = provenance(s, o.frame, *s.technique, o.arguments, o.scene);
   json["options"].update(o.options().to_json());
   const std::vector<uint32_t> mask = read_mask(s.renderer.mask());
   json["mask_hash"] = mask_hash(mask);
@@ -119,24 +100,19 @@ int render(RenderOptions& o) {
   json["frame_ms"] = median(timed.frame_ms);
   json["memory_bytes"] = counts_json(s.renderer.memory());
   if (!timed.peer.is_null()) json["peer"] = timed.peer;
-  const Image image = frame_image(s, *o.technique, json);
+  const Image image = frame_image(s, *s.technique, json);
   json["counts"] = counts_json(s.renderer.count());
   const std::vector<float>& depth = image.floats("depth");
   if (std::none_of(depth.begin(), depth.end(), [](float d) { return d > 0.0f; }))
     warn("no triangle of '{}' is in view: the picture shows the sky", o.scene);
 
-  // All are on the disk before the first appears, so that a full one leaves none.
   if (exr) write_exr(*exr, image);
   if (png) write_png(*png, preview(image));
   const std::string json_file = json_text(json, 1) + "\n";
   if (text) text->write(std::as_bytes(std::span(json_file)));
-  for (std::optional<AtomicFile>* file : {&exr, &png, &text})
-    if (*file) (*file)->close();
-  for (std::optional<AtomicFile>* file : {&exr, &png, &text})
-    if (*file) (*file)->commit();
+  outputs.commit();
   print_table(json);
-  for (const std::string* path : {&o.output, &o.preview, &o.json})
-    if (!path->empty()) fmt::print("wrote {}\n", *path);
+  for (const AtomicFile& file : outputs.files()) fmt::print("wrote {}\n", file.target().string());
   return 0;
 }
 

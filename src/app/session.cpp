@@ -34,6 +34,15 @@ std::unique_ptr<Technique> technique_of(const std::vector<std::string>& argument
   return technique;
 }
 
+std::unique_ptr<Technique> another(Technique& technique) {
+  std::unique_ptr<Technique> copy = make_technique(technique.info().name);
+  const OptionSet from = technique.options(), to = copy->options();
+  for (size_t i = 0; i < to.options().size(); ++i)
+    std::visit([&](auto* value) { *value = *std::get<decltype(value)>(from.options()[i].value); },
+               to.options()[i].value);
+  return copy;
+}
+
 Gl::Gl(const std::string& context_name)
     : context(gpu::create_context(context_name, std::getenv("IZB_GL_DEBUG") != nullptr)),
       capabilities(gpu::query_capabilities()) {
@@ -49,14 +58,15 @@ Scene load_with_progress(const std::string& path) {
 
 }  // namespace
 
-Session::Session(const FrameOptions& options, Technique& technique, const std::string& scene_path)
+Session::Session(const FrameOptions& options, std::unique_ptr<Technique> its_technique, const std::string& scene_path)
     : scene(load_with_progress(scene_path)),
       frame(choose_frame(options, scene)),
       gl(options.context),
+      technique(std::move(its_technique)),
       renderer(scene, gl.capabilities),
       timers(gl.capabilities.software) {
   for (const std::string& sentence : scene.ignored) note("{}: {}", scene_path, sentence);
-  renderer.prepare(technique, frame.size.width_px, frame.size.height_px);
+  renderer.prepare(*technique, frame.size.width_px, frame.size.height_px);
 }
 
 }  // namespace izb

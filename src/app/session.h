@@ -12,6 +12,9 @@ namespace izb {
 /// The technique named on the command line, made before parsing so that its options can be parsed too.
 std::unique_ptr<Technique> technique_of(const std::vector<std::string>& arguments);
 
+/// Another of the same name, whose options have the same values.
+std::unique_ptr<Technique> another(Technique& technique);
+
 /// A GL context and what the driver says of itself. $IZB_GL_DEBUG set: KHR_debug messages are shown, and counted.
 struct Gl {
   explicit Gl(const std::string& context_name);
@@ -19,12 +22,13 @@ struct Gl {
   gpu::Capabilities capabilities;
 };
 
-/// Everything for frames of one scene.
+/// Everything for frames of one scene. The technique is its own, since GL objects must not outlive their context.
 struct Session {
-  Session(const FrameOptions& options, Technique& technique, const std::string& scene_path);
+  Session(const FrameOptions& options, std::unique_ptr<Technique> its_technique, const std::string& scene_path);
   Scene scene;
   FrameChoice frame;
   Gl gl;
+  std::unique_ptr<Technique> technique;
   Renderer renderer;
   gpu::StageTimers timers;
 };

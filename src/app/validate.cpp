@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 // izb validate: a technique's mask against rays from the same points, disputed bits settled exactly.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <optional>
 #include <span>
 
 #include "app/attribution.h"
 #include "app/commands.h"
+#include "app/outputs.h"
 #include "app/results.h"
+#include "app/validate_report.h"
 #include "app/verdict_picture.h"
 #include "base/error.h"
-#include "base/file.h"
 #include "base/json_text.h"
 #include "base/log.h"
 #include "base/progress.h"
-#include "base/table.h"
 #include "image/png.h"
 #include "reference/embree.h"
 #include "reference/model.h"
@@ -52,62 +53,8 @@ struct ValidateOptions {
   }
 };
 
-struct Outcome {
-  std::string scene;
-  nlohmann::json json;
-};
-
-std::string with_stem(const std::string& path, const std::string& stem) {
-  const std::filesystem::path p(path);
-  return (p.parent_path() / fmt::format("{}.{}{}", p.stem().string(), stem, p.extension().string())).string();
-}
-
-nlohmann::json settled_json(const reference::Settled& settled) {
-  return {{"compared", settled.compared},
-          {"lit", settled.lit},
-          {"shadowed", settled.shadowed},
-          {"disputed", settled.disputed},
-          {"settled_ours", settled.settled_ours},
-          {"explained", settled.explained},
-          {"unexplained", settled.unexplained},
-          {"leaks", settled.leaks},
-          {"false_shadow", settled.false_shadow},
-          {"left_out", {{"sky", settled.sky}, {"culled", settled.culled}, {"outside_cone", settled.outside_cone}}}};
-}
-
-nlohmann::json points_json(const reference::PointCheck& check, const std::string& scene_path) {
-  if (check.wrong > 0)
-    warn("{}: {} pixels see a wrong triangle, the first at pixel {}", scene_path, check.wrong,
-         check.wrong_pixels.front());
-  return {{"checked", check.checked},
-          {"ok", check.ok},
-          {"near_edge", check.near_edge},
-          {"depth_tie", check.depth_tie},
-          {"wrong", check.wrong},
-          {"max_plane_ulps", check.max_plane_ulps},
-          {"max_ray_offset_px", check.max_ray_offset_px}};
-}
-
-nlohmann::json attribution_json(const reference::Attribution& sums) {
-  return {{"table", sums.table},
-          {"insertion_leaks", sums.insertion_leaks},
-          {"insertion_false", sums.insertion_false},
-          {"shadowed_bits", sums.shadowed_bits},
-          {"leak_percent", sums.leak_percent()}};
-}
-
-/// The first unexplained bits.
-nlohmann::json records_json(const reference::Settled& settled, int width_px) {
-  nlohmann::json records = nlohmann::json::array();
-  for (const reference::DisputedBit& bit : settled.records) {
-    if (bit.verdict != reference::Verdict::unexplained || records.size() == 20) break;
-    records.push_back({{"x", bit.receiver % width_px},
-                       {"y", bit.receiver / width_px},
-                       {"sample", bit.sample},
-                       {"leak", bit.leak},
-                       {"edge_distance_bands", bit.edge_distance_bands}});
-  }
-  return records;
+std::string stem(const std::string& path) {
+  return std::filesystem::path(path).stem().string();
 }
 
 uint64_t shrunk_pixels(const reference::Receivers& receivers) {
@@ -117,16 +64,17 @@ uint64_t shrunk_pixels(const reference::Receivers& receivers) {
   return shrunk;
 }
 
-Outcome validate_scene(const ValidateOptions& o, const std::string& scene_path) {
+/// `heatmap` may be null.
+SceneReport validate_scene(const ValidateOptions& o, const std::string& scene_path, AtomicFile* heatmap) {
   FrameOptions frame = o.frame;
   // With several scenes each has its own view, named after its file.
-  if (frame.viewpoint == "auto") frame.viewpoint = std::filesystem::path(scene_path).stem().string();
-  Session s(frame, *o.technique, scene_path);
+  if (frame.viewpoint == "auto") frame.viewpoint = stem(scene_path);
+  Session s(frame, another(*o.technique), scene_path);
   s.renderer.render(s.frame.camera, s.frame.light, s.timers);
   s.timers.collect();
   const std::vector<uint32_t> asked = read_mask(s.renderer.mask());
   std::optional<reference::MaskTwins> twins;
-  if (approximates(*o.technique)) twins = render_twins(s, *o.technique);
+  if (approximates(*s.technique)) twins = render_twins(s, *s.technique);
   // Only an exact mask has nothing but exact bits to explain.
   const std::vector<uint32_t>& mask = twins ? twins->exact : asked;
   const FrameInputs& in = s.renderer.inputs();
@@ -146,8 +94,8 @@ Outcome validate_scene(const ValidateOptions& o, const std::string& scene_path) 
   progress.advance();
   progress.relabel("checking the points of " + scene_path);
 
-  Outcome outcome{scene_path, provenance(s, frame, *o.technique, o.arguments, scene_path)};
-  nlohmann::json& json = outcome.json;
+  SceneReport report{scene_path, provenance(s, frame, *s.technique, o.arguments, scene_path)};
+  nlohmann::json& json = report.json;
   json["options"]["points"] = o.points;
   json["mask_hash"] = mask_hash(asked);
   json["pixels"] = mask.size();
@@ -155,105 +103,70 @@ Outcome validate_scene(const ValidateOptions& o, const std::string& scene_path) 
   json["shrunk_pixels"] = shrunk_pixels(receivers);
   json.update(settled_json(settled));
   if (twins) json["attribution"] = attribution_json(reference::attribute(receivers, *twins));
-  if (o.points) json["points"] = points_json(reference::check_points(tracer, triangles, rays, receivers), scene_path);
-  if (o.model) {
-    const reference::ModelError error = reference::compare_model(tracer, triangles, light, rays, receivers, mask);
-    json["model"] = {{"compared", error.compared}, {"differing", error.differing}, {"percent", error.percent()}};
+  if (o.points) {
+    const reference::PointCheck check = reference::check_points(tracer, triangles, rays, receivers);
+    if (check.wrong > 0)
+      warn("{}: {} pixels see a wrong triangle, the first at pixel {}", scene_path, check.wrong,
+           check.wrong_pixels.front());
+    json["points"] = points_json(check);
   }
+  if (o.model) json["model"] = model_json(reference::compare_model(tracer, triangles, light, rays, receivers, mask));
   if (settled.unexplained > 0) json["records"] = records_json(settled, in.width_px);
-  if (!o.heatmap.empty()) {
-    const std::string path = o.scenes.size() > 1 ? with_stem(o.heatmap, s.scene.name) : o.heatmap;
-    write_png(path, verdict_picture(receivers, settled, asked, twins ? &*twins : nullptr, s.frame.size));
-  }
+  if (heatmap) write_png(*heatmap, verdict_picture(receivers, settled, asked, twins ? &*twins : nullptr, s.frame.size));
   progress.advance();
-  return outcome;
-}
-
-/// One number of an outcome, by the path of its keys; empty where the outcome does not have it.
-struct Shown {
-  const char* heading;
-  const char* path;
-};
-
-void print_table(const std::vector<Outcome>& outcomes) {
-  std::vector<Shown> shown{{"pixels", "/pixels"},
-                           {"spp", "/spp"},
-                           {"shrunk", "/shrunk_pixels"},
-                           {"lit", "/lit"},
-                           {"shadowed", "/shadowed"},
-                           {"disputed", "/disputed"},
-                           {"settled_ours", "/settled_ours"},
-                           {"explained", "/explained"},
-                           {"unexplained", "/unexplained"},
-                           {"leaks", "/leaks"},
-                           {"false_shadow", "/false_shadow"},
-                           {"sky", "/left_out/sky"},
-                           {"culled", "/left_out/culled"},
-                           {"outside cone", "/left_out/outside_cone"},
-                           {"points wrong", "/points/wrong"}};
-  // Columns that only some runs have.
-  for (const Shown& more : std::initializer_list<Shown>{{"table", "/attribution/table"},
-                                                        {"insertion leaks", "/attribution/insertion_leaks"},
-                                                        {"insertion false", "/attribution/insertion_false"},
-                                                        {"leak %", "/attribution/leak_percent"},
-                                                        {"model %", "/model/percent"}})
-    if (std::any_of(outcomes.begin(), outcomes.end(), [&](const Outcome& outcome) {
-          return outcome.json.contains(nlohmann::json::json_pointer(more.path));
-        }))
-      shown.push_back(more);
-  std::vector<Column> columns{{"scene", Align::left}};
-  for (const Shown& column : shown) columns.push_back({column.heading});
-  Table table(columns);
-  for (const Outcome& outcome : outcomes) {
-    std::vector<std::string> row{std::filesystem::path(outcome.scene).stem().string()};
-    for (const Shown& column : shown) {
-      const nlohmann::json value = outcome.json.value(nlohmann::json::json_pointer(column.path), nlohmann::json());
-      row.push_back(value.is_null()           ? ""
-                    : value.is_number_float() ? fmt::format("{:.4f}", value.get<double>())
-                                              : json_text(value));
-    }
-    table.add_row(row);
-  }
-  fmt::print("{}", table.str());
+  return report;
 }
 
 /// Whether nothing is wrong but what an approximation that was asked for may be.
-bool passes(const Outcome& outcome, double max_leak_percent) {
-  const nlohmann::json& json = outcome.json;
+bool passes(const SceneReport& report, double max_leak_percent) {
+  const nlohmann::json& json = report.json;
   const bool leaks = json.contains("attribution") && json["attribution"]["leak_percent"] > max_leak_percent;
-  if (leaks) warn("{}: the insertion leaks more than --max-leak {} percent", outcome.scene, max_leak_percent);
+  if (leaks) warn("{}: the insertion leaks more than --max-leak {} percent", report.scene, max_leak_percent);
   return !leaks && json["unexplained"] == 0 && (!json.contains("points") || json["points"]["wrong"] == 0);
 }
 
+/// One of each scene, null where none is asked for; with several scenes the stem of each is in its name.
+std::vector<AtomicFile*> open_heatmaps(Outputs& outputs, const ValidateOptions& o) {
+  if (o.heatmap.empty() || o.scenes.size() == 1)
+    return std::vector<AtomicFile*>(o.scenes.size(), outputs.open("--heatmap", o.heatmap));
+  std::vector<AtomicFile*> heatmaps;
+  for (const std::string& scene : o.scenes) {
+    std::filesystem::path path(o.heatmap);
+    path.replace_filename(fmt::format("{}.{}{}", path.stem().string(), stem(scene), path.extension().string()));
+    heatmaps.push_back(outputs.open("the --heatmap of " + scene, path.string()));
+  }
+  return heatmaps;
+}
+
 int validate(const ValidateOptions& o) {
-  // Opened first: an output that cannot be written is known before the work.
-  std::optional<AtomicFile> text;
-  if (!o.json.empty()) text.emplace(o.json);
-  std::vector<Outcome> outcomes;
+  Outputs outputs;
+  AtomicFile* const text = outputs.open("--json", o.json);
+  const std::vector<AtomicFile*> heatmaps = open_heatmaps(outputs, o);
+  std::vector<SceneReport> reports;
   std::vector<std::string> failures;
   bool good = true;
-  for (const std::string& scene : o.scenes) {
+  for (size_t i = 0; i < o.scenes.size(); ++i) {
     try {
-      outcomes.push_back(validate_scene(o, scene));
+      reports.push_back(validate_scene(o, o.scenes[i], heatmaps[i]));
     } catch (const UsageError&) {
       throw;
     } catch (const Error& e) {
       failures.push_back(e.what());  // the others' results may take hours: they are not lost
       continue;
     }
-    good &= passes(outcomes.back(), o.max_leak);
+    good &= passes(reports.back(), o.max_leak);
   }
-  if (!outcomes.empty()) print_table(outcomes);
+  if (!reports.empty()) print_table(reports);
   std::fflush(stdout);
   for (const std::string& failure : failures) note("{}", failure);
   if (!failures.empty()) return 1;
   if (text) {
     nlohmann::json all = nlohmann::json::array();
-    for (const Outcome& outcome : outcomes) all.push_back(outcome.json);
+    for (const SceneReport& report : reports) all.push_back(report.json);
     const std::string json_file = json_text(all.size() == 1 ? all[0] : all, 1) + "\n";
     text->write(std::as_bytes(std::span(json_file)));
-    text->commit();
   }
+  outputs.commit();
   return good ? 0 : 1;
 }
 

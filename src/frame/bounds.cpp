@@ -11,26 +11,34 @@ namespace {
 constexpr int threads_a_group = 64;
 constexpr int groups = 256;  // persistent threads: enough to fill a GPU, few enough for atomics at their end
 
+gpu::ProgramSpec reduce_spec(bool micro_quads, int cascades) {
+  gpu::ProgramSpec spec{"bounds", {"frame/2_bounds.comp.glsl"}, {{"CASCADES", std::to_string(cascades)}}};
+  if (micro_quads) spec.defines["MICRO_QUAD"] = "1";
+  return spec;
+}
+
 }  // namespace
 
 std::vector<gpu::ProgramSpec> BoundsStage::program_specs() {
-  return {{"bounds", {"frame/2_bounds.comp.glsl"}, {}},
-          {"bounds", {"frame/2_bounds.comp.glsl"}, {{"MICRO_QUAD", "1"}}},
-          {"bounds window", {"frame/2_bounds_window.comp.glsl"}, {}},
+  return {{"bounds window", {"frame/2_bounds_window.comp.glsl"}, {}},
           {"bounds range", {"frame/2_bounds_range.comp.glsl"}, {}},
-          {"bounds split", {"frame/2_bounds_split.comp.glsl"}, {}}};
+          {"bounds split", {"frame/2_bounds_split.comp.glsl"}, {}},
+          reduce_spec(false, 1),
+          reduce_spec(true, 1),
+          reduce_spec(false, shared::max_cascades),
+          reduce_spec(true, shared::max_cascades)};
 }
 
 BoundsStage::BoundsStage()
-    : window_program_(program_specs()[2]),
-      range_program_(program_specs()[3]),
-      split_program_(program_specs()[4]),
+    : window_program_(program_specs()[0]),
+      range_program_(program_specs()[1]),
+      split_program_(program_specs()[2]),
       bounds_("receiver bounds", sizeof(shared::ReceiverBounds) * shared::max_cascades),
       windows_("light windows", sizeof(shared::LightWindow) * shared::max_cascades),
       cascades_buffer_("cascades", sizeof(shared::CascadeRange)) {}
 
 void BoundsStage::prepare(bool micro_quads, int cascades) {
-  reduce_ = gpu::Program(program_specs()[micro_quads ? 1 : 0]);
+  reduce_ = gpu::Program(reduce_spec(micro_quads, cascades));
   cascades_ = cascades;
 }
 
@@ -51,7 +59,7 @@ void BoundsStage::render(gpu::StageTimers& timers) {
     split_program_.dispatch(1, 1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
-  reduce_.dispatch(threads_a_group * groups, 1, threads_a_group, 1, cascades_);
+  reduce_.dispatch(threads_a_group * groups, 1, threads_a_group, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   window_program_.dispatch(1, 1, 1, 1);
   // Read as uniform blocks: a software renderer reads storage lane by lane.

@@ -32,8 +32,9 @@ struct Query {
 #else
   RTCIntersectContext context;
 #endif
-  const uint32_t* own_triangle = nullptr;     // shadow rays: indexed by the ray's id
-  std::vector<uint32_t>* all_hits = nullptr;  // all_hits(): takes every hit and lets the ray go on
+  const uint32_t* own_triangle = nullptr;  // shadow rays: indexed by the ray's id
+  // all_hits(): takes every hit as the ray's id and a triangle, and lets the ray go on
+  std::vector<std::pair<uint32_t, uint32_t>>* all_hits = nullptr;
 
   explicit Query(bool coherent) {
 #if IZB_EMBREE_MAJOR >= 4
@@ -57,11 +58,11 @@ void skip_own_triangle(const RTCFilterFunctionNArguments* args) {
 }
 
 void collect_all(const RTCFilterFunctionNArguments* args) {
-  std::vector<uint32_t>* all = reinterpret_cast<const Query*>(args->context)->all_hits;
+  auto* all = reinterpret_cast<const Query*>(args->context)->all_hits;
   if (!all) return;
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
-    all->push_back(RTCHitN_primID(args->hit, args->N, i));
+    all->emplace_back(RTCRayN_id(args->ray, args->N, i), RTCHitN_primID(args->hit, args->N, i));
     args->valid[i] = 0;
   }
 }
@@ -87,17 +88,6 @@ void intersect(const int* valid, RTCScene scene, RTCRayHit16& rays, Query& query
   rtcIntersect16(valid, scene, &rays, &args);
 #else
   rtcIntersect16(valid, scene, &query.context, &rays);
-#endif
-}
-
-void intersect(RTCScene scene, RTCRayHit& ray, Query& query) {
-#if IZB_EMBREE_MAJOR >= 4
-  RTCIntersectArguments args;
-  rtcInitIntersectArguments(&args);
-  args.context = &query.context;
-  rtcIntersect1(scene, &ray, &args);
-#else
-  rtcIntersect1(scene, &query.context, &ray);
 #endif
 }
 
@@ -127,6 +117,28 @@ float largest(const glm::vec3& v) {
 float start_distance(const glm::vec3& point) {
   return 8.0f * largest(point) * 0x1p-23f;
 }
+
+// Camera rays of one packet, from the first on.
+struct CameraPacket {
+  RTCRayHit16 rays;
+  alignas(64) int valid[packet];
+
+  // Lanes from `end` on are off and repeat the last ray.
+  void load(std::span<const glm::vec3> origins, std::span<const glm::vec3> directions, size_t first, size_t end,
+            float t_near) {
+    for (int lane = 0; lane < packet; ++lane) {
+      const size_t i = first + static_cast<size_t>(lane), ray = std::min(i, end - 1);
+      valid[lane] = i < end ? -1 : 0;
+      const glm::vec3 o = origins[origins.size() == 1 ? 0 : ray], d = directions[ray];
+      rays.ray.org_x[lane] = o.x, rays.ray.org_y[lane] = o.y, rays.ray.org_z[lane] = o.z;
+      rays.ray.dir_x[lane] = d.x, rays.ray.dir_y[lane] = d.y, rays.ray.dir_z[lane] = d.z;
+      rays.ray.tnear[lane] = t_near;
+      rays.ray.time[lane] = 0.0f, rays.ray.mask[lane] = 0xFFFFFFFFu, rays.ray.flags[lane] = 0;
+      rays.ray.id[lane] = static_cast<unsigned>(i);
+      rays.hit.geomID[lane] = rays.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+    }
+  }
+};
 
 // Collects samples of receivers until 16 rays are full. Packets hold receivers only, whatever lies between them.
 class ShadowPacket {
@@ -319,27 +331,16 @@ PrimaryHits RayTracer::primary_hits(std::span<const glm::vec3> origins, std::spa
   hits.t.resize(count, infinity);
   parallel_for(count, rays_per_chunk, s.threads, [&](size_t begin, size_t end, unsigned) {
     Query query(true);
-    RTCRayHit16 rays;
-    alignas(64) int valid[packet];
+    CameraPacket p;
     for (size_t first = begin; first < end; first += packet) {
-      for (int lane = 0; lane < packet; ++lane) {
-        const size_t i = first + static_cast<size_t>(lane);
-        valid[lane] = i < end ? -1 : 0;
-        const glm::vec3 o = origins[origins.size() == 1 ? 0 : std::min(i, end - 1)];
-        const glm::vec3 d = directions[std::min(i, end - 1)];
-        rays.ray.org_x[lane] = o.x, rays.ray.org_y[lane] = o.y, rays.ray.org_z[lane] = o.z;
-        rays.ray.dir_x[lane] = d.x, rays.ray.dir_y[lane] = d.y, rays.ray.dir_z[lane] = d.z;
-        rays.ray.tnear[lane] = t_near, rays.ray.tfar[lane] = t_far;
-        rays.ray.time[lane] = 0.0f, rays.ray.mask[lane] = 0xFFFFFFFFu, rays.ray.flags[lane] = 0;
-        rays.ray.id[lane] = static_cast<unsigned>(i);
-        rays.hit.geomID[lane] = rays.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
-      }
-      intersect(valid, s.scene, rays, query);
+      p.load(origins, directions, first, end, t_near);
+      std::fill_n(p.rays.ray.tfar, packet, t_far);
+      intersect(p.valid, s.scene, p.rays, query);
       for (size_t i = first; i < std::min(first + packet, end); ++i) {
         const size_t lane = i - first;
-        if (rays.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
-        hits.triangle[i] = rays.hit.primID[lane];
-        hits.t[i] = rays.ray.tfar[lane];
+        if (p.rays.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
+        hits.triangle[i] = p.rays.hit.primID[lane];
+        hits.t[i] = p.rays.ray.tfar[lane];
       }
     }
   });
@@ -347,23 +348,32 @@ PrimaryHits RayTracer::primary_hits(std::span<const glm::vec3> origins, std::spa
   return hits;
 }
 
-std::vector<uint32_t> RayTracer::all_hits(const glm::vec3& origin, const glm::vec3& direction, float t_near,
-                                          float t_far) const {
-  std::vector<uint32_t> found;
-  Query query(false);
+AllHits RayTracer::all_hits(std::span<const glm::vec3> origins, std::span<const glm::vec3> directions, float t_near,
+                            std::span<const float> t_far) const {
+  const size_t count = directions.size();
+  if (origins.size() != count || t_far.size() != count)
+    fail("cannot trace camera rays: {} directions come with {} origins and {} ends", count, origins.size(),
+         t_far.size());
+  std::vector<std::pair<uint32_t, uint32_t>> found;
+  Query query(true);
   query.all_hits = &found;
-  RTCRayHit ray{};
-  ray.ray.org_x = origin.x, ray.ray.org_y = origin.y, ray.ray.org_z = origin.z;
-  ray.ray.dir_x = direction.x, ray.ray.dir_y = direction.y, ray.ray.dir_z = direction.z;
-  ray.ray.tnear = t_near, ray.ray.tfar = t_far;
-  ray.ray.mask = 0xFFFFFFFFu;
-  ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  intersect(state_->scene, ray, query);
-  state_->check("trace a camera ray");
+  CameraPacket p;
+  for (size_t first = 0; first < count; first += packet) {
+    p.load(origins, directions, first, count, t_near);
+    for (size_t lane = 0; lane < packet; ++lane) p.rays.ray.tfar[lane] = t_far[std::min(first + lane, count - 1)];
+    intersect(p.valid, state_->scene, p.rays, query);
+  }
+  state_->check("trace camera rays");
   // A hierarchy with spatial splits may offer one triangle several times.
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
-  return found;
+  AllHits hits;
+  for (const auto& [ray, triangle] : found) {
+    hits.first.resize(std::max<size_t>(hits.first.size(), ray + 1), hits.triangles.size());
+    hits.triangles.push_back(triangle);
+  }
+  hits.first.resize(count + 1, hits.triangles.size());
+  return hits;
 }
 
 }  // namespace izb::reference

@@ -35,6 +35,16 @@ struct PrimaryHits {
   std::vector<float> t;            ///< distance in units of the ray's direction, infinity where nothing is hit
 };
 
+/// Every triangle that each ray hits, ascending.
+struct AllHits {
+  std::vector<size_t> first;        ///< one entry a ray, and the end
+  std::vector<uint32_t> triangles;  ///< all lists, one after another
+
+  std::span<const uint32_t> of(size_t ray) const {
+    return {triangles.data() + first[ray], first[ray + 1] - first[ray]};
+  }
+};
+
 /// A hierarchy over one frame's triangles. Move-only; owns its device, so several may live at once.
 class RayTracer {
  public:
@@ -60,9 +70,10 @@ class RayTracer {
   PrimaryHits primary_hits(std::span<const glm::vec3> origins, std::span<const glm::vec3> directions,
                            float t_near = 0.0f, float t_far = std::numeric_limits<float>::infinity()) const;
 
-  /// Every triangle that one ray hits with t in [t_near, t_far], in no order, by float arithmetic.
-  std::vector<uint32_t> all_hits(const glm::vec3& origin, const glm::vec3& direction, float t_near = 0.0f,
-                                 float t_far = std::numeric_limits<float>::infinity()) const;
+  /// Every triangle with t in [t_near, the ray's t_far], by float arithmetic. All spans have one entry a ray. Works on
+  /// the calling thread alone.
+  AllHits all_hits(std::span<const glm::vec3> origins, std::span<const glm::vec3> directions, float t_near,
+                   std::span<const float> t_far) const;
 
  private:
   struct State;

@@ -41,7 +41,8 @@ MaskTrace RayTracer::trace_mask(const LightPoint&, const Receivers&) const {
 PrimaryHits RayTracer::primary_hits(std::span<const glm::vec3>, std::span<const glm::vec3>, float, float) const {
   refuse();
 }
-std::vector<uint32_t> RayTracer::all_hits(const glm::vec3&, const glm::vec3&, float, float) const {
+AllHits RayTracer::all_hits(std::span<const glm::vec3>, std::span<const glm::vec3>, float,
+                            std::span<const float>) const {
   refuse();
 }
 

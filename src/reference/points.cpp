@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <mutex>
+#include <span>
 
 #include "base/error.h"
 #include "reference/exact.h"
@@ -16,7 +17,9 @@ namespace {
 constexpr double tolerance_px = 1.0 / 128.0;
 constexpr double tie_ulps = 8.0;
 constexpr size_t wrong_cap = 100;
-constexpr size_t pixels_per_pass = 1 << 18;
+constexpr size_t pixels_per_chunk = 4096;
+// By how much the float ray may misjudge how far a triangle is.
+constexpr double ray_slack = 1.001;
 
 double float_ulp(double x) {
   return std::ldexp(1.0, std::ilogb(x) - 23);
@@ -114,12 +117,14 @@ class Seen {
   bool in_front_ = true;
 };
 
+// A pixel's centre and what lies within 1/128 pixel of it.
+const std::array<glm::dvec2, 5> steps_px{glm::dvec2(0), glm::dvec2(tolerance_px, 0), glm::dvec2(-tolerance_px, 0),
+                                         glm::dvec2(0, tolerance_px), glm::dvec2(0, -tolerance_px)};
+
 // Whether the two depths are equal, up to rounding, at the pixel's centre or within 1/128 pixel of it.
 bool depths_tie(const Seen& a, const Seen& b, double x, double y) {
   double least = std::numeric_limits<double>::infinity(), most = -least;
-  constexpr double h = tolerance_px;
-  for (const glm::dvec2 step :
-       {glm::dvec2(0), glm::dvec2(h, 0), glm::dvec2(-h, 0), glm::dvec2(0, h), glm::dvec2(0, -h)}) {
+  for (const glm::dvec2& step : steps_px) {
     const double ta = a.t(x + step.x, y + step.y), difference = ta - b.t(x + step.x, y + step.y);
     if (std::abs(difference) <= tie_ulps * float_ulp(ta)) return true;
     least = std::min(least, difference), most = std::max(most, difference);
@@ -131,34 +136,31 @@ enum class Outcome { ok, near_edge, depth_tie, wrong };
 
 class PixelChecker {
  public:
-  PixelChecker(const RayTracer& tracer, const Triangles& triangles, const PixelRays& rays)
-      : tracer_(tracer), triangles_(triangles), rays_(rays), project_(rays) {}
+  PixelChecker(const Triangles& triangles, const PixelRays& rays)
+      : triangles_(triangles), rays_(rays), project_(rays) {}
 
   const Projection& projection() const { return project_; }
 
-  Outcome check(uint32_t own, double x, double y) const {
+  // Up to where something may be in front of a pixel's own triangle.
+  float ray_end(uint32_t own, double x, double y) const {
+    const double t = own < triangles_.count() ? seen(own).t(x, y) : rays_.t_far;
+    return static_cast<float>(std::min(t > 0.0 ? ray_slack * t : rays_.t_far, rays_.t_far));
+  }
+
+  Outcome check(uint32_t own, double x, double y, std::span<const uint32_t> candidates) const {
     if (own >= triangles_.count()) return Outcome::wrong;
     const Seen mine = seen(own);
-    const double inside = mine.inside_px(x, y), t = mine.t(x, y);
-    if (!(inside >= -tolerance_px)) return Outcome::wrong;
+    const double inside = mine.inside_px(x, y);
+    if (!(inside >= -tolerance_px) || !in_range(mine, x, y)) return Outcome::wrong;
     Outcome worst = inside >= 0.0 ? Outcome::ok : Outcome::near_edge;
-    for (const uint32_t other : hits(x, y, std::isfinite(t) ? t * 1.001 : rays_.t_far)) {
-      if (other == own) continue;
-      const Seen theirs = seen(other);
-      const double their_inside = theirs.inside_px(x, y), their_t = theirs.t(x, y);
-      if (!(their_inside >= 0.0) || !(their_t < t) || !(their_t >= rays_.t_near)) continue;
-      const bool at_edge = std::min(inside, their_inside) <= tolerance_px;
-      const Outcome outcome = at_edge                          ? Outcome::near_edge
-                              : depths_tie(theirs, mine, x, y) ? Outcome::depth_tie
-                                                               : Outcome::wrong;
-      worst = std::max(worst, outcome);
-    }
+    for (const uint32_t other : candidates)
+      if (other != own) worst = std::max(worst, behind(mine, seen(other), x, y));
     return worst;
   }
 
-  Outcome check_sky(double x, double y) const {
+  Outcome check_sky(double x, double y, std::span<const uint32_t> candidates) const {
     Outcome worst = Outcome::ok;
-    for (const uint32_t other : hits(x, y, rays_.t_far)) {
+    for (const uint32_t other : candidates) {
       const Seen theirs = seen(other);
       const double inside = theirs.inside_px(x, y), t = theirs.t(x, y);
       if (!(inside >= 0.0) || !(t >= rays_.t_near) || !(t <= rays_.t_far)) continue;
@@ -170,14 +172,25 @@ class PixelChecker {
  private:
   Seen seen(uint32_t triangle) const { return {triangles_, triangle, rays_, project_}; }
 
-  // Float rays miss only triangles whose outline is far closer than the tolerance.
-  std::vector<uint32_t> hits(double x, double y, double t_far) const {
-    return tracer_.all_hits(rays_.origin_at(x, y), rays_.direction_at(x, y),
-                            static_cast<float>(rays_.t_near * (1.0 - 1e-5)),
-                            static_cast<float>(std::min(t_far, rays_.t_far)));
+  // What it is that the pixel shows `mine`, given `theirs`. Only an edge of `theirs` can be why it is not in front: one
+  // of `mine`, which rasterisers may move, too, does not lift it.
+  Outcome behind(const Seen& mine, const Seen& theirs, double x, double y) const {
+    const double inside = theirs.inside_px(x, y), t = theirs.t(x, y);
+    if (!(inside >= 0.0) || !(t < mine.t(x, y)) || !(t >= rays_.t_near)) return Outcome::ok;
+    if (inside <= tolerance_px) return Outcome::near_edge;
+    return depths_tie(theirs, mine, x, y) ? Outcome::depth_tie : Outcome::wrong;
   }
 
-  const RayTracer& tracer_;
+  // Whether the camera's planes cut the triangle off neither here nor within 1/128 pixel.
+  bool in_range(const Seen& mine, double x, double y) const {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const glm::dvec2& step : steps_px) {
+      const double t = mine.t(x + step.x, y + step.y);
+      least = std::min(least, t), most = std::max(most, t);
+    }
+    return most >= rays_.t_near * (1.0 - 1e-6) && least <= rays_.t_far * (1.0 + 1e-6);
+  }
+
   const Triangles& triangles_;
   const PixelRays& rays_;
   Projection project_;
@@ -265,36 +278,46 @@ PointCheck check_points(const RayTracer& tracer, const Triangles& triangles, con
   if (receivers.count() != count)
     fail("cannot check the points: {} x {} pixels come with {} points", rays.width_px, rays.height_px,
          receivers.count());
-  const PixelChecker checker(tracer, triangles, rays);
+  const PixelChecker checker(triangles, rays);
   Partial total;
   std::mutex total_guard;
-  std::vector<glm::vec3> origins, directions;
-  for (size_t begin = 0; begin < count; begin += pixels_per_pass) {
-    const size_t size = std::min(pixels_per_pass, count - begin);
-    origins.resize(size), directions.resize(size);
-    for (size_t k = 0; k < size; ++k) {
-      const glm::dvec2 at((begin + k) % width, (begin + k) / width);
-      origins[k] = rays.origin_at(at.x, at.y), directions[k] = rays.direction_at(at.x, at.y);
+  parallel_for(count, pixels_per_chunk, 0, [&](size_t begin, size_t end, unsigned) {
+    const auto at = [&](size_t pixel) { return glm::dvec2(pixel % width, pixel / width); };
+    const auto own_of = [&](size_t pixel) {
+      return receivers.classes[pixel] == PixelClass::sky ? no_triangle : receivers.own_triangle[pixel];
+    };
+    std::vector<glm::vec3> origins, directions;
+    std::vector<float> ends;
+    for (size_t pixel = begin; pixel < end; ++pixel) {
+      const glm::dvec2 p = at(pixel);
+      origins.emplace_back(rays.origin_at(p.x, p.y)), directions.emplace_back(rays.direction_at(p.x, p.y));
+      ends.push_back(checker.ray_end(own_of(pixel), p.x, p.y));
     }
-    const PrimaryHits nearest =
-        tracer.primary_hits(origins, directions, static_cast<float>(rays.t_near), static_cast<float>(rays.t_far));
-    parallel_for(size, 4096, 0, [&](size_t first, size_t end, unsigned) {
-      Partial part;
-      for (size_t k = first; k < end; ++k) {
-        const uint32_t pixel = static_cast<uint32_t>(begin + k), own = receivers.own_triangle[pixel];
-        const double x = static_cast<double>(pixel % width), y = static_cast<double>(pixel / width);
-        const uint32_t hit = nearest.triangle[k];
-        if (receivers.classes[pixel] == PixelClass::sky) {
-          part.count(hit == no_triangle ? Outcome::ok : checker.check_sky(x, y), pixel);
-          continue;
-        }
-        part.count(hit == own && own != no_triangle ? Outcome::ok : checker.check(own, x, y), pixel);
-        part.measure(checker.projection(), triangles, receivers, pixel, x, y);
+    const AllHits hits = tracer.all_hits(origins, directions, static_cast<float>(rays.t_near * (1.0 - 1e-5)), ends);
+    Partial part;
+    std::vector<uint32_t> candidates;
+    for (size_t pixel = begin; pixel < end; ++pixel) {
+      const glm::dvec2 p = at(pixel);
+      const std::span<const uint32_t> found = hits.of(pixel - begin);
+      candidates.assign(found.begin(), found.end());
+      // A float ray may miss a triangle whose corners are far away or behind the camera by more than the tolerance.
+      // Such a one is large in the picture: a neighbour shows it.
+      const auto add = [&](bool there, size_t neighbour) {
+        if (there && own_of(neighbour) < triangles.count()) candidates.push_back(own_of(neighbour));
+      };
+      add(pixel % width > 0, pixel - 1), add(pixel % width + 1 < width, pixel + 1);
+      add(pixel >= width, pixel - width), add(pixel + width < count, pixel + width);
+      const uint32_t id = static_cast<uint32_t>(pixel);
+      if (receivers.classes[pixel] == PixelClass::sky) {
+        part.count(checker.check_sky(p.x, p.y, candidates), id);
+        continue;
       }
-      const std::scoped_lock lock(total_guard);
-      total.add(part);
-    });
-  }
+      part.count(checker.check(receivers.own_triangle[pixel], p.x, p.y, candidates), id);
+      part.measure(checker.projection(), triangles, receivers, id, p.x, p.y);
+    }
+    const std::scoped_lock lock(total_guard);
+    total.add(part);
+  });
   std::sort(total.sums.wrong_pixels.begin(), total.sums.wrong_pixels.end());
   if (total.sums.wrong_pixels.size() > wrong_cap) total.sums.wrong_pixels.resize(wrong_cap);
   return total.sums;

@@ -33,9 +33,8 @@ PixelRays pixel_rays(const Camera& camera, int width_px, int height_px);
 struct PointCheck {
   uint64_t checked = 0;
   uint64_t ok = 0;         ///< the pixel's triangle is the exact nearest hit; a sky pixel hits nothing
-  uint64_t near_edge = 0;  ///< it is not, but the pixel's centre lies within 1/128 pixel of an edge of it or
-                           ///< of the triangle that should be there
-  uint64_t depth_tie = 0;  ///< it is not, but the two depths are equal (8 ulps) somewhere within 1/128 pixel
+  uint64_t near_edge = 0;  ///< the pixel's centre lies outside it or inside what is nearer, by at most 1/128 pixel
+  uint64_t depth_tie = 0;  ///< something is nearer, but the depths are equal (8 ulps) somewhere within 1/128 pixel
   uint64_t wrong = 0;
   std::vector<uint32_t> wrong_pixels;  ///< the first 100
   double max_plane_ulps = 0.0;         ///< largest distance of a receiver from its own triangle's plane, in float ulps
@@ -45,9 +44,9 @@ struct PointCheck {
   uint32_t max_ray_offset_pixel = 0;
 };
 
-/// Compares each pixel's point and triangle with the scene, in double; `tracer` (over the same triangles)
-/// only finds the pixels that need a close look. All classes are checked: sky pixels must hit nothing, others
-/// their own triangle. Throws izb::Error where the receivers are not one a pixel.
+/// Compares each pixel's point and triangle with the scene, in double; `tracer` (over the same triangles) only finds
+/// what may be in front. All classes are checked: sky pixels must hit nothing, others their own triangle. Throws
+/// izb::Error where the receivers are not one a pixel.
 PointCheck check_points(const RayTracer& tracer, const Triangles& triangles, const PixelRays& rays,
                         const Receivers& receivers);
 

@@ -305,6 +305,50 @@ TEST_F(BadInput, WhereOneOutputFailsNoneAppears) {
   }
 }
 
+TEST_F(BadInput, AHeatMapThatCannotBeWrittenIsKnownBeforeTheWork) {
+  const fs::path json = output / "verdicts.json", absent = folder / "absent" / "map.png";
+  const auto validate = [&](const fs::path& heatmap, const std::vector<fs::path>& scenes) {
+    std::vector<std::string> words{"validate", "--json", json, "--heatmap", heatmap, "--size", "32x18"};
+    words.insert(words.end(), scenes.begin(), scenes.end());
+    return izb::test::izb(words);
+  };
+  // Scenes that are not there would be named if the work had begun.
+  expect_refused(validate(absent, {folder / "no.glb"}), absent, "does not exist");
+  expect_refused(validate(output, {folder / "no.glb"}), output, "directory");
+  expect_refused(validate(absent, {folder / "no.glb", folder / "nor.glb"}), "map.no.png", "does not exist");
+  expect_refused(validate(json, {folder / "no.glb"}), json, "--json and --heatmap", 2);
+  expect_refused(validate(output / "map.png", {folder / "a" / "no.glb", folder / "b" / "no.glb"}), "map.no.png",
+                 "name the same file", 2);
+}
+
+TEST_F(BadInput, WhereOneSceneFailsNoVerdictsAppear) {
+  const fs::path json = write_file(output / "verdicts.json", "old"), map = write_file(output / "map.good.png", "old");
+  const Outcome outcome = izb::test::izb(
+      {"validate", good(), folder / "absent.glb", "--json", json, "--heatmap", output / "map.png", "--size", "32x18"});
+  if (outcome.says("Embree")) GTEST_SKIP() << "this build has no Embree";
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(names_in(output), (std::vector<std::string>{"map.good.png", "verdicts.json"}));
+  EXPECT_EQ(fs::file_size(json), 3u);
+  EXPECT_EQ(fs::file_size(map), 3u);
+}
+
+TEST_F(BadInput, WhereAVerdictsFileFailsNoneAppears) {
+  const auto full = full_device(folder / ".");
+  if (!full) GTEST_SKIP() << "no full device";
+  for (const char* bad : {"--json", "--heatmap"}) {
+    std::vector<std::string> words{"validate", good(), "--size", "32x18"};
+    for (const char* option : {"--json", "--heatmap"}) {
+      words.push_back(option);
+      words.push_back(option == std::string(bad) ? *full : output / "verdicts");
+    }
+    const Outcome outcome = izb::test::izb(words);
+    if (outcome.says("Embree")) GTEST_SKIP() << "this build has no Embree";
+    EXPECT_EQ(outcome.code, 1) << bad;
+    EXPECT_TRUE(outcome.says(full->string() + "': No space left on device")) << outcome.err;
+    EXPECT_EQ(names_in(output), std::vector<std::string>{}) << bad;
+  }
+}
+
 TEST_F(BadInput, ASignalLeavesNothingBehind) {
   // So many frames that it is still at them when the signal comes.
   for (const auto& [signal, code] : {std::pair{"INT", 130}, {"TERM", 143}}) {

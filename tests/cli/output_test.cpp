@@ -9,6 +9,7 @@
 #include "cli/run_program.h"
 #include "cli/small_scenes.h"
 #include "image/exr.h"
+#include "image/png.h"
 
 namespace {
 
@@ -255,6 +256,20 @@ TEST_F(Output, ValidateAttributesTheWrongBitsOfApproximations) {
   EXPECT_NE(exact["mask_hash"], with_table);
   for (const char* key : {"lit", "shadowed", "disputed", "explained", "unexplained"})
     EXPECT_EQ(exact[key], j[key]) << key;
+}
+
+TEST_F(Output, ValidateWritesAHeatMapOfEachScene) {
+  const fs::path other = write_file(folder / "other.glb", roof_over_floor().glb());
+  const Outcome outcome =
+      izb::test::izb({"validate", scene, other, "--size", "64x36", "--json", json, "--heatmap", folder / "map.png"});
+  if (outcome.says("Embree") && outcome.code == 1) GTEST_SKIP() << "this build has no Embree";
+  ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  EXPECT_EQ(names_in(folder / "."),
+            (std::vector<std::string>{"frame.json", "map.other.png", "map.roof.png", "other.glb", "roof.glb"}));
+  EXPECT_EQ(read_json(json).size(), 2u);
+  const izb::Image8 map = izb::read_png(folder / "map.roof.png");
+  EXPECT_EQ(map.width_px, 64);
+  EXPECT_EQ(map.pixels, izb::read_png(folder / "map.other.png").pixels);
 }
 
 TEST_F(Output, ValidateFailsOnAPlantedError) {

@@ -183,8 +183,16 @@ TEST_F(ReferenceEmbree, CameraRaysFindTheNearestAndAllHits) {
   EXPECT_EQ(hits.triangle[0], 2u);
   EXPECT_FLOAT_EQ(hits.t[0], 1.5f);
   EXPECT_EQ(tracer.primary_hits({&origin, 1}, directions, 0.0f, 0.9f).triangle[0], no_triangle);
-  EXPECT_EQ(tracer.all_hits(origin, directions[0]), (std::vector<uint32_t>{0, 2}));
-  EXPECT_EQ(tracer.all_hits(origin, directions[0], 0.0f, 1.2f), (std::vector<uint32_t>{0}));
+  std::vector<float> ends(directions.size(), std::numeric_limits<float>::infinity());
+  ends[20] = 1.2f, ends[39] = 0.5f;
+  const std::vector<glm::vec3> origins(directions.size(), origin);
+  const AllHits all = tracer.all_hits(origins, directions, 0.0f, ends);
+  for (size_t i = 0; i < directions.size(); ++i) {
+    std::vector<uint32_t> expected{0, 2};
+    if (i == 20) expected = {0};
+    if (i == 37 || i == 39) expected.clear();
+    EXPECT_TRUE(std::ranges::equal(all.of(i), expected)) << i;
+  }
 }
 
 TEST_F(ReferenceEmbree, RefusesWhatCannotBeTraced) {
@@ -200,6 +208,8 @@ TEST_F(ReferenceEmbree, RefusesWhatCannotBeTraced) {
   receivers.classes.clear();
   EXPECT_THROW(tracer.trace_mask(lights[0], receivers), Error);
   EXPECT_THROW(tracer.primary_hits(std::vector<glm::vec3>(2), std::vector<glm::vec3>(3)), Error);
+  EXPECT_THROW(tracer.all_hits(std::vector<glm::vec3>(3), std::vector<glm::vec3>(3), 0.0f, std::vector<float>(2)),
+               Error);
 }
 
 TEST(ReferenceEmbreeAbsent, IsANamedRefusal) {

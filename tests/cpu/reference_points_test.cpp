@@ -127,7 +127,7 @@ TEST_P(ReferencePoints, AWrongTriangleIsSeen) {
 TEST_P(ReferencePoints, AHiddenTriangleIsSeen) {
   // The triangle behind, where the front one covers the pixel by more than the tolerance.
   Triangles two;
-  add_triangle(two, {-9, -9, -5}, {9, -9, -5}, {0, 20, -5});
+  add_triangle(two, {-9, -9, -5}, {9, -9, -5}, {0.3f, 20, -5});
   add_triangle(two, {-30, -30, -8}, {30, -30, -8}, {0, 60, -8});
   const RayTracer over_two(two);
   receivers = render(two, rays);
@@ -138,6 +138,64 @@ TEST_P(ReferencePoints, AHiddenTriangleIsSeen) {
   const PointCheck found = check_points(over_two, two, rays, receivers);
   EXPECT_EQ(found.wrong, 1u);
   EXPECT_EQ(found.wrong_pixels, std::vector<uint32_t>{middle});
+}
+
+TEST_P(ReferencePoints, AHiddenTrianglesOwnEdgeExcusesNothing) {
+  // The hidden one has an edge 0.003 pixels from the centres of a column.
+  const auto behind = [&](double y) { return rays.origin_at(20.003, y) + 8.0 * rays.direction_at(20.003, y); };
+  Triangles two;
+  add_triangle(two, {-90, -90, -5}, {90, -90, -5}, {0, 200, -5});
+  add_triangle(two, behind(-9), behind(99), behind(99) - glm::dvec3(60, 0, 0));
+  const RayTracer over_two(two);
+  receivers = render(two, rays);
+  receivers.own_triangle[pixel(20, 24)] = 1;
+  const PointCheck found = check_points(over_two, two, rays, receivers);
+  EXPECT_EQ(found.near_edge, 0u);
+  EXPECT_EQ(found.wrong_pixels, std::vector<uint32_t>{pixel(20, 24)});
+}
+
+TEST_P(ReferencePoints, ATriangleThatTheFloatRaysPreferWronglyIsSeen) {
+  // Two parallel floors, tilted, and so large that float rays may take the lower for the nearer.
+  Random random(3);
+  std::vector<uint32_t> planted;
+  for (int trial = 0; trial < 50 && planted.empty(); ++trial) {
+    Triangles floors;
+    for (const double height : {-10.0, -10.01}) {
+      const auto corner = [&](double x, double z) {
+        const glm::dvec2 at = 1e5 * (glm::dvec2(x, z) + 0.2 * glm::dvec2(random.point(-1.0, 1.0)));
+        return glm::vec3(at.x, height + 0.237 * at.x - 0.319 * at.y, at.y);
+      };
+      add_triangle(floors, corner(-1.3, -1.1), corner(1.7, -1.2), corner(0.1, 1.9));
+    }
+    const RayTracer over_floors(floors);
+    receivers = render(floors, rays);
+    EXPECT_EQ(check_points(over_floors, floors, rays, receivers).wrong, 0u);
+    for (int y = 1; y < height_px; y += 2)
+      for (int x = 1; x < width_px; x += 2) {
+        const std::vector<glm::vec3> origin{rays.origin_at(x, y)}, direction{rays.direction_at(x, y)};
+        if (receivers.own_triangle[pixel(x, y)] != 0u) continue;
+        if (over_floors.primary_hits(origin, direction, 0.1f, 200.0f).triangle[0] != 1u) continue;
+        receivers.own_triangle[pixel(x, y)] = 1;
+        planted.push_back(pixel(x, y));
+      }
+    planted.resize(std::min<size_t>(planted.size(), 100));
+    EXPECT_EQ(check_points(over_floors, floors, rays, receivers).wrong_pixels, planted);
+  }
+  EXPECT_FALSE(planted.empty());
+}
+
+TEST_P(ReferencePoints, ATriangleBeyondTheCamerasPlanesIsSeen) {
+  // All three fill the view: before the near plane, behind the camera, beyond the far plane.
+  for (const float z : {-0.05f, 3.0f, -300.0f}) {
+    Triangles one;
+    add_triangle(one, {-900, -900, z}, {900, -900, z}, {0, 1800, z});
+    receivers = render(one, rays);
+    EXPECT_EQ(check_points(RayTracer(one), one, rays, receivers).ok, receivers.count()) << z;
+    receivers.classes[pixel(20, 24)] = PixelClass::receiver;
+    receivers.own_triangle[pixel(20, 24)] = 0;
+    EXPECT_EQ(check_points(RayTracer(one), one, rays, receivers).wrong_pixels, std::vector<uint32_t>{pixel(20, 24)})
+        << z;
+  }
 }
 
 TEST_P(ReferencePoints, AMovedPointIsMeasured) {
