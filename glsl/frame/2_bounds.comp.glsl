@@ -1,6 +1,14 @@
 #version 450 core
 // 5.2 Scene bounds: what the receivers of each of CASCADES span as the light sees them. Each thread has its own extremes,
 // joined by atomics at the end.
+struct Extremes {
+  vec3 low, high;
+  vec2 slack;  // of u and v, of d
+  uint receivers;
+};
+struct Gathered {
+  Extremes of[CASCADES];
+};
 #include "frame/for_each_receiver.glsl"
 #include "shared/insertion.h"
 
@@ -8,14 +16,7 @@ layout(std430, binding = BIND_BOUNDS) buffer BoundsBlock { ReceiverBounds all_bo
 layout(std430, binding = BIND_CASCADES) readonly buffer CascadeBlock { CascadeRange range; };
 layout(binding = UNIT_MICRO_QUAD) uniform sampler2D micro_quad_texture;
 
-struct Extremes {
-  vec3 low, high;
-  vec2 slack;  // of u and v, of d
-  uint receivers;
-};
-Extremes extremes[CASCADES];
-
-void visit(CameraFrame eye, LightFrame lamp, ivec2 px, float t, vec3 p) {
+void visit(CameraFrame eye, LightFrame lamp, ivec2 px, float t, vec3 p, inout Gathered gathered) {
   vec3 p_ls = light_position(lamp, p);
 #ifdef MICRO_QUAD
   MicroQuad quad = make_micro_quad(eye, px, texelFetch(micro_quad_texture, px, 0));
@@ -34,26 +35,28 @@ void visit(CameraFrame eye, LightFrame lamp, ivec2 px, float t, vec3 p) {
   // With constant indices the extremes stay in registers.
   for (int i = 0; i < CASCADES; ++i)
     if (i == cascade) {
-      extremes[i].low = min(extremes[i].low, low);
-      extremes[i].high = max(extremes[i].high, high);
-      extremes[i].slack = max(extremes[i].slack, slack);
-      ++extremes[i].receivers;
+      gathered.of[i].low = min(gathered.of[i].low, low);
+      gathered.of[i].high = max(gathered.of[i].high, high);
+      gathered.of[i].slack = max(gathered.of[i].slack, slack);
+      ++gathered.of[i].receivers;
     }
 }
 
 void main() {
-  for (int i = 0; i < CASCADES; ++i) extremes[i] = Extremes(vec3(3.0e38), vec3(-3.0e38), vec2(0.0), 0u);
-  for_each_receiver();
+  Gathered gathered;
+  for (int i = 0; i < CASCADES; ++i) gathered.of[i] = Extremes(vec3(3.0e38), vec3(-3.0e38), vec2(0.0), 0u);
+  for_each_receiver(gathered);
   for (int i = 0; i < CASCADES; ++i) {
-    if (extremes[i].receivers == 0u) continue;
-    atomicMin(all_bounds[i].low.x, ordered_from_float(extremes[i].low.x));
-    atomicMin(all_bounds[i].low.y, ordered_from_float(extremes[i].low.y));
-    atomicMin(all_bounds[i].low.z, ordered_from_float(extremes[i].low.z));
-    atomicMax(all_bounds[i].high.x, ordered_from_float(extremes[i].high.x));
-    atomicMax(all_bounds[i].high.y, ordered_from_float(extremes[i].high.y));
-    atomicMax(all_bounds[i].high.z, ordered_from_float(extremes[i].high.z));
-    atomicMax(all_bounds[i].slack.x, ordered_from_float(extremes[i].slack.x));
-    atomicMax(all_bounds[i].slack.y, ordered_from_float(extremes[i].slack.y));
-    atomicAdd(all_bounds[i].slack.z, extremes[i].receivers);
+    Extremes extremes = gathered.of[i];
+    if (extremes.receivers == 0u) continue;
+    atomicMin(all_bounds[i].low.x, ordered_from_float(extremes.low.x));
+    atomicMin(all_bounds[i].low.y, ordered_from_float(extremes.low.y));
+    atomicMin(all_bounds[i].low.z, ordered_from_float(extremes.low.z));
+    atomicMax(all_bounds[i].high.x, ordered_from_float(extremes.high.x));
+    atomicMax(all_bounds[i].high.y, ordered_from_float(extremes.high.y));
+    atomicMax(all_bounds[i].high.z, ordered_from_float(extremes.high.z));
+    atomicMax(all_bounds[i].slack.x, ordered_from_float(extremes.slack.x));
+    atomicMax(all_bounds[i].slack.y, ordered_from_float(extremes.slack.y));
+    atomicAdd(all_bounds[i].slack.z, extremes.receivers);
   }
 }

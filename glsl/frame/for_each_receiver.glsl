@@ -1,4 +1,5 @@
-// The frame's receivers, shared out among persistent threads. Whoever includes this defines what is done with each.
+// The frame's receivers, shared out among persistent threads. Whoever includes this declares `Gathered` before, and defines
+// what each receiver adds to it.
 #include "shared/bindings.h"
 #include "shared/bounds.h"
 
@@ -9,9 +10,9 @@ layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
 layout(binding = UNIT_EYE_DISTANCE) uniform sampler2D eye_distance_texture;
 layout(binding = UNIT_NORMAL) uniform sampler2D normal_texture;
 
-void visit(CameraFrame eye, LightFrame lamp, ivec2 px, float t, vec3 p);
+void visit(CameraFrame eye, LightFrame lamp, ivec2 px, float t, vec3 p, inout Gathered gathered);
 
-void for_each_receiver() {
+void for_each_receiver(inout Gathered gathered) {
   // Read once, not in every round of the loop.
   CameraFrame eye = camera;
   LightFrame lamp = light;
@@ -21,6 +22,6 @@ void for_each_receiver() {
       float t = texelFetch(eye_distance_texture, px, 0).x;
       vec3 p = receiver_point(eye, vec2(px) + 0.5, t);
       vec3 normal = octahedral_direction(texelFetch(normal_texture, px, 0).xy);
-      if (t > 0.0 && receiver_class(lamp, p, normal) == class_receiver) visit(eye, lamp, px, t, p);
+      if (t > 0.0 && receiver_class(lamp, p, normal) == class_receiver) visit(eye, lamp, px, t, p, gathered);
     }
 }
