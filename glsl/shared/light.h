@@ -32,7 +32,14 @@ SHARED float norm1(IN(vec3) v) {
   return sum;
 }
 
-SHARED bool is_positional(IN(LightFrame) light) { return light.origin.w != 0.0f; }
+// DIRECTIONAL: a program for directional lights only. Where all lanes run all code, that spares the other's.
+SHARED bool is_positional(IN(LightFrame) light) {
+#ifdef DIRECTIONAL
+  return false;
+#else
+  return light.origin.w != 0.0f;
+#endif
+}
 
 // Light-space position relative to the light's origin.
 SHARED vec3 light_position(IN(LightFrame) light, IN(vec3) p_vs) {

@@ -22,18 +22,11 @@ std::string Izb::missing(const gpu::Capabilities& capabilities) const {
              : "";
 }
 
-const gpu::Program& Izb::program(IzbProgram p) {
-  gpu::Program& made = programs_[static_cast<size_t>(p)];
-  if (!made) made = gpu::Program(izb_program_spec(p, built_));
-  return made;
-}
-
 void Izb::resize(int width_px, int height_px) {
   built_ = settings_;
   const IzbSettings& s = built_;
   width_px_ = width_px, height_px_ = height_px;
-  programs_.clear();
-  programs_.resize(static_cast<size_t>(IzbProgram::count));
+  programs_ = IzbPrograms(s);
   heads_ = gpu::Texture::array("izb heads", GL_R32UI, s.grid, s.grid, s.cascades);
   if (s.pool())
     nodes_ = gpu::Texture("izb nodes", GL_RG32UI, shared::pool_width, 1);
@@ -66,14 +59,10 @@ void Izb::resize(int width_px, int height_px) {
   if (s.table())
     table_ = gpu::BufferTexture("visibility look-up table", make_visibility_table(samples(), s.table_side()));
   overflow_ = gpu::Query("izb overflow", GL_ANY_SAMPLES_PASSED);
-  for (int p = 0; p < static_cast<int>(IzbProgram::count); ++p)
-    if (const IzbProgram each = static_cast<IzbProgram>(p); each != IzbProgram::visibility_counted &&
-                                                            each != IzbProgram::visibility_counted_all &&
-                                                            (each != IzbProgram::count_nodes || s.pool()))
-      program(each);  // nothing is compiled within a frame
 }
 
 void Izb::render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) {
+  programs_.prepare(shared::is_positional(in.light) ? LightKind::positional : LightKind::directional);
   {
     const gpu::StageTimers::Scope scope(timers, name(Stage::build));
     build(in);
@@ -96,9 +85,9 @@ void Izb::build(const FrameInputs& in) {
     furthest_.clear_uint(0);
     glBindImageTexture(IMAGE_FURTHEST, furthest_.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
   }
-  program(IzbProgram::build).use();
+  programs_[IzbProgram::build].use();
   if (built_.many_samples() && !built_.pool()) glUniform1i(0, built_.slots());
-  program(IzbProgram::build).dispatch(in.width_px, in.height_px, 16, 16);
+  programs_[IzbProgram::build].dispatch(in.width_px, in.height_px, 16, 16);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
@@ -106,7 +95,7 @@ void Izb::build(const FrameInputs& in) {
 void Izb::count_pool(const FrameInputs& in) {
   pool_counter_.fill(0);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_POOL, pool_counter_.name());
-  program(IzbProgram::count_nodes).dispatch(in.width_px, in.height_px, 16, 16);
+  programs_[IzbProgram::count_nodes].dispatch(in.width_px, in.height_px, 16, 16);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   const shared::PoolCounters counted = pool_counter_.read<shared::PoolCounters>(1)[0];
   const uint32_t nodes = counted.nodes, largest_quad = counted.largest_quad;
@@ -132,7 +121,7 @@ void Izb::zcull() {
   glDepthMask(GL_TRUE);
   glBindTextureUnit(UNIT_FURTHEST, furthest_.name());
   glBindVertexArray(no_attributes_.name());
-  program(IzbProgram::zcull).use();
+  programs_[IzbProgram::zcull].use();
   for (int cascade = 0; cascade < built_.cascades; ++cascade) {
     glBindFramebuffer(GL_FRAMEBUFFER, zcull_framebuffers_[cascade].name());
     glUniform1i(0, cascade);
@@ -144,7 +133,7 @@ void Izb::zcull() {
 void Izb::pyramid() {
   glBindImageTexture(IMAGE_PYRAMID, pyramid_.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
   for (int level = 0; level < shared::pyramid_levels; ++level) {
-    const gpu::Program& p = program(level == 0 ? IzbProgram::pyramid_first : IzbProgram::pyramid);
+    const gpu::Program& p = programs_[level == 0 ? IzbProgram::pyramid_first : IzbProgram::pyramid];
     p.use();
     glUniform1i(0, level);
     const int side = shared::pyramid_side(built_.grid, level);
@@ -172,7 +161,7 @@ void Izb::draw(const FrameInputs& in, const Pass& pass) {
     glDepthFunc(GL_LESS);
     glDepthMask(GL_FALSE);
   }
-  program(pass.program).use();
+  programs_[pass.program].use();
   glUniform1f(1, static_cast<float>(built_.dilation()));
   const int layers = built_.layers_a_pass();
   for (int first = 0; first < built_.cascades; first += layers) {
@@ -196,11 +185,11 @@ void Izb::visibility(const FrameInputs& in, Visibility& out, const Pass& pass) {
   draw(in, pass);
 
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  program(IzbProgram::settle).dispatch(64 * 16, 1, 64, 1);
+  programs_[IzbProgram::settle].dispatch(64 * 16, 1, 64, 1);
 
   glBindVertexArray(no_attributes_.name());
   glBeginQuery(GL_ANY_SAMPLES_PASSED, overflow_.name());
-  program(IzbProgram::overflow).use();
+  programs_[IzbProgram::overflow].use();
   glDrawArrays(GL_POINTS, 0, 1);
   glEndQuery(GL_ANY_SAMPLES_PASSED);
   glBeginConditionalRender(overflow_.name(), GL_QUERY_WAIT);

@@ -4,7 +4,7 @@
 #pragma once
 #include "gpu/program.h"
 #include "shadow/izb/internals.h"
-#include "shadow/izb/settings.h"
+#include "shadow/izb/programs.h"
 #include "shadow/technique.h"
 #include "shared/pairs.h"
 
@@ -58,12 +58,11 @@ class Izb final : public Technique {
   void draw(const FrameInputs& in, const Pass& pass);
   shared::Counters visibility_counted(const FrameInputs& in, Visibility& out, const Pass& pass);
 
-  const gpu::Program& program(IzbProgram p);
   IzbLists read_lists() const;
 
   IzbSettings settings_, built_;  ///< as the options say; as the programs and textures were made
   int width_px_ = 0, height_px_ = 0;
-  std::vector<gpu::Program> programs_;
+  IzbPrograms programs_;
   gpu::Texture heads_;     ///< light-space grids of head pointers, one a cascade
   gpu::Texture nodes_;     ///< screen-space grid of nodes, or the pool of exact insertion
   gpu::Texture furthest_;  ///< bits of the furthest node's depth

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The options of the technique `izb`, and which program each stage takes for them.
+// The options of the technique `izb`.
 #pragma once
 #include <string>
 #include <vector>
 
 #include "base/options.h"
 #include "frame/samples.h"
-#include "gpu/glsl_front_end.h"
 
 namespace izb {
 
@@ -41,27 +40,5 @@ struct IzbSettings {
   /// Layers that one draw of the casters reaches.
   int layers_a_pass() const { return cascade_pass == "single" ? cascades : 1; }
 };
-
-/// The programs of the technique's stages.
-enum class IzbProgram {
-  build,
-  count_nodes,
-  zcull,
-  pyramid_first,
-  pyramid,
-  visibility,
-  visibility_in_double,
-  visibility_counted,
-  visibility_counted_all,
-  settle,
-  overflow,
-  count
-};
-
-gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& settings);
-
-/// Every program of the defaults, of each option alone from the defaults, of the presets, and of another order of
-/// insertion.
-std::vector<gpu::ProgramSpec> izb_program_specs();
 
 }  // namespace izb

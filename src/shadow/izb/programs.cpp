@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/izb/programs.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace izb {
+
+gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, LightKind light) {
+  const std::string folder = "shadow/izb/";
+  gpu::Defines defines;
+  const auto define = [&](bool on, const char* name) {
+    if (on) defines[name] = "1";
+  };
+  const auto light_defines = [&] { define(light == LightKind::directional, "DIRECTIONAL"); };
+  const auto walk_defines = [&] {
+    light_defines();
+    define(s.many_samples(), "SPP32");
+    define(s.table(), "TABLE");
+    define(s.pool(), "POOL");
+  };
+  const auto visibility = [&](bool pyramid, const char* variant) -> gpu::ProgramSpec {
+    walk_defines();
+    define(pyramid, "PYRAMID");
+    define(s.removal, "REMOVAL");
+    define(s.unchanged_skip, "SKIP");
+    define(s.pipelining, "PIPELINE");
+    if (s.cascades > 1) defines["CASCADES"] = std::to_string(s.layers_a_pass());
+    if (*variant) defines[variant] = "1";
+    return {fmt::format("izb visibility {}", variant),
+            {folder + "5_visibility.vert.glsl", folder + "5_visibility.geom.glsl", folder + "5_visibility.frag.glsl"},
+            defines};
+  };
+  const auto build = [&](bool count) -> gpu::ProgramSpec {
+    light_defines();
+    define(s.zcull, "ZCULL");
+    define(s.many_samples(), "SPP32");
+    if (s.many_samples())
+      define(true, s.insertion == "approximate" ? "ALONG_AXIS"
+                   : s.insertion == "nv"        ? "BY_VIEW"
+                   : s.insertion == "samples"   ? "BY_SAMPLES"
+                                                : "POOL");
+    define(count, "COUNT_NODES");
+    if (s.insertion_stride != 1) defines["STRIDE"] = fmt::format("{}u", s.insertion_stride);
+    return {"izb build", {folder + "3_build.comp.glsl"}, defines};
+  };
+  switch (program) {
+    case IzbProgram::build:
+      return build(false);
+    case IzbProgram::count_nodes:
+      return build(true);
+    case IzbProgram::zcull:
+      return {"izb zcull", {folder + "4_zcull.vert.glsl", folder + "4_zcull.frag.glsl"}, {}};
+    case IzbProgram::pyramid_first:
+      define(true, "FIRST_LEVEL");
+      [[fallthrough]];
+    case IzbProgram::pyramid:
+      return {"izb zcull pyramid", {folder + "4_zcull_pyramid.comp.glsl"}, defines};
+    case IzbProgram::visibility:
+      return visibility(s.pyramid(), "");
+    case IzbProgram::visibility_in_double:
+      return visibility(s.pyramid(), "IN_DOUBLE");
+    case IzbProgram::visibility_counted:
+      return visibility(s.pyramid(), "COUNT");
+    case IzbProgram::visibility_counted_all:
+      return visibility(false, "COUNT");
+    case IzbProgram::settle:
+      walk_defines();
+      return {"izb visibility settle", {folder + "5_visibility_settle.comp.glsl"}, defines};
+    default:
+      return {"izb visibility overflow",
+              {folder + "5_visibility_overflow.vert.glsl", folder + "5_visibility_overflow.frag.glsl"},
+              {}};
+  }
+}
+
+std::vector<gpu::ProgramSpec> izb_program_specs() {
+  std::vector<gpu::ProgramSpec> all;
+  const auto add = [&](const IzbSettings& settings) {
+    for (int p = 0; p < static_cast<int>(IzbProgram::count); ++p) {
+      const IzbProgram program = static_cast<IzbProgram>(p);
+      if (program == IzbProgram::count_nodes && !settings.pool()) continue;
+      for (const LightKind light : {LightKind::directional, LightKind::positional}) {
+        gpu::ProgramSpec spec = izb_program_spec(program, settings, light);
+        const bool known = std::any_of(all.begin(), all.end(), [&](const gpu::ProgramSpec& other) {
+          return other.files == spec.files && other.defines == spec.defines;
+        });
+        if (!known) all.push_back(std::move(spec));
+      }
+    }
+  };
+  add({});
+  for (const std::string& preset : IzbSettings::preset_names()) {
+    IzbSettings settings;
+    settings.apply(preset);
+    add(settings);
+  }
+  IzbSettings settings;
+  const OptionSet set = settings.options();
+  for (const Option& option : set.options()) {
+    std::vector<std::string> values = option.choices;
+    if (std::holds_alternative<bool*>(option.value)) values = {"on", "off"};
+    if (option.name == "cascades") values = {"2", "8"};
+    for (const std::string& value : values) {
+      settings = IzbSettings();
+      option.set(value);
+      add(settings);
+    }
+    settings = IzbSettings();
+  }
+  settings.insertion_stride = 7;
+  add(settings);
+  return all;
+}
+
+IzbPrograms::IzbPrograms(const IzbSettings& settings) : settings_(settings) {
+  for (std::vector<gpu::Program>& kind : programs_) kind.resize(static_cast<size_t>(IzbProgram::count));
+}
+
+void IzbPrograms::prepare(LightKind light) {
+  light_ = light;
+  for (int p = 0; p < static_cast<int>(IzbProgram::count); ++p)
+    if (const IzbProgram each = static_cast<IzbProgram>(p); each != IzbProgram::visibility_counted &&
+                                                            each != IzbProgram::visibility_counted_all &&
+                                                            (each != IzbProgram::count_nodes || settings_.pool()))
+      (*this)[each];
+}
+
+const gpu::Program& IzbPrograms::operator[](IzbProgram program) {
+  gpu::Program& made = programs_[static_cast<size_t>(light_)][static_cast<size_t>(program)];
+  if (!made) made = gpu::Program(izb_program_spec(program, settings_, light_));
+  return made;
+}
+
+}  // namespace izb

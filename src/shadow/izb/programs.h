@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Which program each stage of the technique `izb` takes, by its options and the kind of the light.
+#pragma once
+#include <vector>
+
+#include "gpu/program.h"
+#include "shadow/izb/settings.h"
+
+namespace izb {
+
+/// The programs of the technique's stages.
+enum class IzbProgram {
+  build,
+  count_nodes,
+  zcull,
+  pyramid_first,
+  pyramid,
+  visibility,
+  visibility_in_double,
+  visibility_counted,
+  visibility_counted_all,
+  settle,
+  overflow,
+  count
+};
+
+/// Of what a software renderer would run for every light though only one kind needs it.
+enum class LightKind { directional, positional };
+
+gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& settings, LightKind light);
+
+/// Every program of the defaults, of each option alone from the defaults, and of the presets, for each kind of light.
+std::vector<gpu::ProgramSpec> izb_program_specs();
+
+/// The programs of one setting, compiled when a frame's light first needs them.
+class IzbPrograms {
+ public:
+  IzbPrograms() = default;
+  explicit IzbPrograms(const IzbSettings& settings);
+  /// Compiles what frames under such a light need, so that nothing is compiled within a stage.
+  void prepare(LightKind light);
+  /// Of the light that was prepared last; compiles if it must.
+  const gpu::Program& operator[](IzbProgram program);
+
+ private:
+  IzbSettings settings_;
+  LightKind light_ = LightKind::directional;
+  std::vector<gpu::Program> programs_[2];
+};
+
+}  // namespace izb
