@@ -13,27 +13,51 @@ uint occluded_bits(QuadPlanes planes) {
   return bits;
 }
 
-// Samples surely on the positive and on the negative side of a line that is off by `error`. With the table they are each
-// other's complement, and a line whose error is large against a bin leaves the whole pair unsure.
+#ifdef TABLE
+layout(binding = UNIT_TABLE) uniform usamplerBuffer visibility_table;
+
+// The samples on the positive side of a line, by the table. `unknown`: all bits where the line is off by more than half a bin
+// of the default table and crosses the pixel, else 0.
+uint table_bits(vec3 line, float error, out uint unknown) {
+  float size = abs(line.y) + abs(line.z);
+  unknown = error * 128.0 <= size || abs(line.x) > 0.5 * size + error ? 0u : 0xffffffffu;
+  return texelFetch(visibility_table, table_entry(line, int(samples.info.y))).x;
+}
+
+uint edge_bits(EdgePlane e, float vertex_norm1, MicroQuad quad, out uint unknown) {
+  vec3 q = e.first - quad.center;
+  return table_bits(quad_line(e.normal, e.turned, q, quad), quad_line_error(e.error, vertex_norm1, q, quad), unknown);
+}
+
+// The occluded samples; `unsure`: the answer needs double precision.
+uint classify_quad(CameraFrame eye, QuadTriangle t, MicroQuad quad, out bool unsure) {
+  uint u0, u1, u2, uh;
+  uint ab = edge_bits(t.edge0, t.vertex_norm1, quad, u0);
+  uint bc = edge_bits(t.edge1, t.vertex_norm1, quad, u1);
+  uint ca = ~edge_bits(t.edge2, t.vertex_norm1, quad, u2);
+  vec3 q = t.edge0.first - quad.center;
+  vec3 height = quad_line(t.plane, t.plane_turned, q, quad);
+  height -= quad_bias(eye, quad.center, quad.t, t.vertex_norm1, quad.overhang) * vec3(1.0, quad.slope);
+  uint above = table_bits(height, quad_line_error(t.plane_error, t.vertex_norm1, q, quad), uh);
+
+  // Each edge's bits are the other triangle's complement, so the triangle's own side decides what is inside. What is unknown
+  // may be; where nothing is left all the same, nothing is unsure.
+  uint inside = 0u;
+  if (t.facing || !t.sided) inside |= (ab | u0) & (bc | u1) & (ca | u2);
+  if (!t.facing || !t.sided) inside |= (~ab | u0) & (~bc | u1) & (~ca | u2);
+  if (!t.sided) uh = 0xffffffffu;
+  uint bits = inside & (above | uh);
+  unsure = bits != 0u && (u0 | u1 | u2 | uh) != 0u;
+  return unsure ? 0u : bits;
+}
+#else
+// Samples surely on the positive and on the negative side of a line that is off by `error`.
 struct Sides {
   uint above;
   uint below;
 };
 
-#ifdef TABLE
-layout(binding = UNIT_TABLE) uniform usamplerBuffer visibility_table;
-
-Sides sides_of(vec3 line, float error, inout bool unsure) {
-  int side = int(samples.info.y);
-  int entry = table_entry(line, side);
-  uint bits = texelFetch(visibility_table, clamp(entry, 0, side * side - 1)).x;
-  bits = entry == table_all ? 0xffffffffu : (entry == table_none ? 0u : bits);
-  float size = abs(line.y) + abs(line.z);
-  if (!(error * 128.0 <= size) && !(abs(line.x) > 0.5 * size + error)) unsure = true;
-  return Sides(bits, ~bits);
-}
-#else
-Sides sides_of(vec3 line, float error, inout bool unsure) {
+Sides sides_of(vec3 line, float error) {
   uint above = 0u, below = 0u;
   for (int i = 0; i < 32; ++i) {
     vec2 o = samples.offset_px[i].xy;
@@ -43,39 +67,29 @@ Sides sides_of(vec3 line, float error, inout bool unsure) {
   }
   return Sides(above, below);
 }
-#endif
 
-Sides edge_sides(EdgePlane e, float vertex_norm1, MicroQuad quad, inout bool unsure) {
+Sides edge_sides(EdgePlane e, float vertex_norm1, MicroQuad quad) {
   vec3 q = e.first - quad.center;
-  return sides_of(quad_line(e.normal, e.turned, q, quad), quad_line_error(e.error, vertex_norm1, q, quad), unsure);
+  return sides_of(quad_line(e.normal, e.turned, q, quad), quad_line_error(e.error, vertex_norm1, q, quad));
 }
 
 // The occluded samples; `unsure`: the answer needs double precision.
 uint classify_quad(CameraFrame eye, QuadTriangle t, MicroQuad quad, out bool unsure) {
-  bool edges_unsure = false, plane_unsure = false;
-  Sides e0 = edge_sides(t.edge0, t.vertex_norm1, quad, edges_unsure);
-  Sides e1 = edge_sides(t.edge1, t.vertex_norm1, quad, edges_unsure);
-  Sides ac = edge_sides(t.edge2, t.vertex_norm1, quad, edges_unsure);
-  Sides e2 = Sides(ac.below, ac.above);
+  Sides ab = edge_sides(t.edge0, t.vertex_norm1, quad);
+  Sides bc = edge_sides(t.edge1, t.vertex_norm1, quad);
+  Sides ac = edge_sides(t.edge2, t.vertex_norm1, quad);
+  Sides ca = Sides(ac.below, ac.above);
   vec3 q = t.edge0.first - quad.center;
   vec3 height = quad_line(t.plane, t.plane_turned, q, quad);
-  float bias = quad_bias(eye, quad.center, quad.t, t.vertex_norm1, quad.overhang);
-  height -= bias * vec3(1.0, quad.slope);
-  Sides h = sides_of(height, quad_line_error(t.plane_error, t.vertex_norm1, q, quad), plane_unsure);
+  height -= quad_bias(eye, quad.center, quad.t, t.vertex_norm1, quad.overhang) * vec3(1.0, quad.slope);
+  Sides h = sides_of(height, quad_line_error(t.plane_error, t.vertex_norm1, q, quad));
   if (!t.sided) h = Sides(0u, 0u);
 
   // One sign on all three edges is inside, two certain and different signs are outside, whatever the winding.
-  uint inside = (e0.above & e1.above & e2.above) | (e0.below & e1.below & e2.below);
-#ifdef TABLE
-  // Two bins may both claim a sample that lies between nearly coincident lines: the triangle's own side decides.
-  if (t.sided) inside = t.facing ? e0.above & e1.above & e2.above : e0.below & e1.below & e2.below;
-  uint bits = inside & h.above;
-  unsure = !t.sided ? inside != 0u : (edges_unsure && h.above != 0u) || (plane_unsure && (inside != 0u || edges_unsure));
-  return unsure ? 0u : bits;
-#else
-  uint outside = (e0.above | e1.above | e2.above) & (e0.below | e1.below | e2.below);
+  uint inside = (ab.above & bc.above & ca.above) | (ab.below & bc.below & ca.below);
+  uint outside = (ab.above | bc.above | ca.above) & (ab.below | bc.below | ca.below);
   uint bits = inside & h.above;
   unsure = (bits | outside | h.below) != 0xffffffffu;
   return bits;
-#endif
 }
+#endif

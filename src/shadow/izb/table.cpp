@@ -6,12 +6,13 @@
 namespace izb {
 
 std::vector<uint32_t> make_visibility_table(const SamplePattern& samples, int side) {
-  std::vector<uint32_t> table(size_t(side) * side);
-  for (int entry = 0; entry < side * side; ++entry) {
+  const int entries = side * shared::table_columns(side);
+  std::vector<uint32_t> table(static_cast<size_t>(entries));
+  for (int entry = 0; entry < entries; ++entry) {
     const glm::dvec3 line(shared::table_line(entry, side));
     for (int s = 0; s < samples.count(); ++s) {
       const glm::dvec2 o(samples.offsets_px[s]);
-      if (line.x + o.x * line.y + o.y * line.z >= 0.0) table[entry] |= 1u << s;
+      if (line.x + o.x * line.y + o.y * line.z >= 0.0) table[static_cast<size_t>(entry)] |= 1u << s;
     }
   }
   return table;
