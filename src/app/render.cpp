@@ -15,6 +15,7 @@
 #include "base/table.h"
 #include "frame/read_back.h"
 #include "image/exr.h"
+#include "image/picture.h"
 #include "image/png.h"
 
 namespace izb {

@@ -11,7 +11,6 @@
 #include "base/sha256.h"
 #include "base/version.h"
 #include "frame/read_back.h"
-#include "image/srgb.h"
 
 namespace izb {
 namespace {
@@ -116,17 +115,6 @@ Image frame_image(const Session& session, const Technique& technique, const nloh
   for (const auto& [key, value] : facts.items())
     image.attributes["izb." + key] = value.is_string() ? value.get<std::string>() : json_text(value);
   return image;
-}
-
-Image8 preview(const Image& image) {
-  Image8 out;
-  out.width_px = image.width_px;
-  out.height_px = image.height_px;
-  out.pixels.resize(image.pixel_count() * 3);
-  const std::vector<float>* planes[] = {&image.floats("R"), &image.floats("G"), &image.floats("B")};
-  for (size_t i = 0; i < image.pixel_count(); ++i)
-    for (size_t c = 0; c < 3; ++c) out.pixels[3 * i + c] = to_srgb8((*planes[c])[i]);
-  return out;
 }
 
 double median(std::vector<double> values) {

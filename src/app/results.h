@@ -21,9 +21,6 @@ std::string mask_hash(const std::vector<uint32_t>& mask);
 /// lists), with the standard attributes worldToCamera and worldToNDC, the light, and `facts` as text.
 Image frame_image(const Session& session, const Technique& technique, const nlohmann::json& facts);
 
-/// The sRGB preview of an image with channels R, G, B.
-Image8 preview(const Image& image);
-
 double median(std::vector<double> values);
 
 /// `stages` of the JSON: name, gpu_ms (median), samples.
