@@ -77,9 +77,7 @@ void print_table(const nlohmann::json& json) {
   fmt::print("{}\n", stages.str());
   Table counts({{"count", Align::left}, {"value"}});
   for (const auto& [name, value] : json["counts"].items()) counts.add_row({name, json_text(value)});
-  for (const auto& [name, value] : json["memory_bytes"].items())
-    counts.add_row({"memory " + name, fmt::format("{:.1f} MB", value.get<double>() * 1e-6)});
-  fmt::print("{}", counts.str());
+  fmt::print("{}\n{}\n", counts.str(), memory_line(json));
 }
 
 int render(RenderOptions& o) {
@@ -98,7 +96,7 @@ int render(RenderOptions& o) {
   json["mask_hash"] = mask_hash(mask);
   json["stages"] = stages_json(s.timers);
   json["frame_ms"] = median(timed.frame_ms);
-  json["memory_bytes"] = counts_json(s.renderer.memory());
+  json.update(memory_json(s.renderer));
   if (!timed.peer.is_null()) json["peer"] = timed.peer;
   const Image image = frame_image(s, *s.technique, json);
   json["counts"] = counts_json(s.renderer.count());

@@ -128,6 +128,19 @@ TEST_F(Output, JsonHasTheDocumentedKeys) {
   EXPECT_EQ(j["mask_hash"].get<std::string>().size(), 64u);
 }
 
+TEST_F(Output, MemoryIsPrintedAndInTheJson) {
+  const Outcome outcome = render();
+  ASSERT_EQ(outcome.code, 0);
+  const nlohmann::json j = read_json(json);
+  for (const char* group : {"izb", "gbuffer", "scene"}) EXPECT_GT(j["memory_bytes"][group], 0) << group;
+  EXPECT_EQ(j["memory_bytes"]["gbuffer"], 64 * 36 * 40);
+  EXPECT_TRUE(std::regex_search(outcome.out, std::regex("\nmemory: gbuffer 0\\.1 MB, izb .* MB, scene .* MB; .* MB")))
+      << outcome.out;
+  if (!j["memory_available_bytes"].is_null()) {
+    EXPECT_TRUE(outcome.prints(" MB available")) << outcome.out;
+  }
+}
+
 TEST_F(Output, TechniquesWriteTheSameLayoutAndHereTheSameMask) {
   ASSERT_EQ(render().code, 0);
   const std::string hash = read_json(json)["mask_hash"];
@@ -306,8 +319,8 @@ TEST_F(Output, InfoSaysThatBlendIsOpaque) {
 TEST_F(Output, InfoTellsTheContextAndTheScene) {
   const Outcome outcome = izb::test::izb({"info", scene});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  for (const char* text :
-       {"context egl", "platform: ", "renderer", "GL_MAX_TEXTURE_SIZE", "triangles", "4 placed", "above", "noon"})
+  for (const char* text : {"context egl", "platform: ", "renderer", "GL_MAX_TEXTURE_SIZE", "memory available",
+                           "triangles", "4 placed", "above", "noon"})
     EXPECT_TRUE(outcome.prints(text)) << text << "\n" << outcome.out;
 }
 
