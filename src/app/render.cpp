@@ -8,6 +8,7 @@
 #include "app/outputs.h"
 #include "app/peer.h"
 #include "app/results.h"
+#include "app/statistics.h"
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/log.h"
@@ -77,6 +78,8 @@ void print_table(const nlohmann::json& json) {
   fmt::print("{}\n", stages.str());
   Table counts({{"count", Align::left}, {"value"}});
   for (const auto& [name, value] : json["counts"].items()) counts.add_row({name, json_text(value)});
+  for (const auto& [name, value] : json["averages"].items())
+    counts.add_row({name, fmt::format("{:.2f}", value.get<double>())});
   fmt::print("{}\n{}\n", counts.str(), memory_line(json));
 }
 
@@ -99,7 +102,7 @@ int render(RenderOptions& o) {
   json.update(memory_json(s.renderer));
   if (!timed.peer.is_null()) json["peer"] = timed.peer;
   const Image image = frame_image(s, *s.technique, json);
-  json["counts"] = counts_json(s.renderer.count());
+  json.update(statistics_json(s));
   const std::vector<float>& depth = image.floats("depth");
   if (std::none_of(depth.begin(), depth.end(), [](float d) { return d > 0.0f; }))
     warn("no triangle of '{}' is in view: the picture shows the sky", o.scene);

@@ -128,6 +128,37 @@ TEST_F(Output, JsonHasTheDocumentedKeys) {
   EXPECT_EQ(j["mask_hash"].get<std::string>().size(), 64u);
 }
 
+TEST_F(Output, TheListHistogramAddsUpToTheCounts) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{}, {"--spp", "32", "--cascades", "2", "--removal", "on"}}) {
+    ASSERT_EQ(render(words).code, 0);
+    const nlohmann::json j = read_json(json), counts = j["counts"], averages = j["averages"];
+    const auto histogram = j["list_histogram"].get<std::vector<uint64_t>>();
+    uint64_t lists = 0, nodes = 0;
+    for (size_t n = 1; n < histogram.size(); ++n) lists += histogram[n], nodes += n * histogram[n];
+    EXPECT_GT(nodes, 0u);
+    EXPECT_EQ(nodes, counts["nodes"]);
+    EXPECT_EQ(lists, counts["lists"]);
+    EXPECT_EQ(histogram.size() - 1, counts["longest_list"]);
+    EXPECT_EQ(histogram[0] + lists, 256u * 256u * (words.empty() ? 1u : 2u));
+
+    uint64_t fully_shadowed = 0;
+    const izb::Image image = izb::read_exr(exr);
+    for (const uint32_t word : image.uints("mask")) fully_shadowed += word == ~0u;
+    EXPECT_GT(fully_shadowed, 0u);
+    EXPECT_EQ(counts["fully_shadowed"], fully_shadowed);
+    EXPECT_GT(counts["receivers"], fully_shadowed);
+    if (words.empty()) {
+      EXPECT_EQ(counts["receivers"], nodes);  // one node each
+    }
+    const auto of = [&](const char* name) { return counts[name].get<double>(); };
+    EXPECT_DOUBLE_EQ(averages["nodes_a_receiver"], of("nodes") / of("receivers"));
+    EXPECT_DOUBLE_EQ(averages["nodes_a_list"], of("nodes") / of("lists"));
+    EXPECT_DOUBLE_EQ(averages["tests_a_fragment"], of("visibility_tests") / of("fragments_after_zcull"));
+    EXPECT_DOUBLE_EQ(averages["tests_a_receiver"], of("visibility_tests") / of("receivers"));
+  }
+}
+
 TEST_F(Output, MemoryIsPrintedAndInTheJson) {
   const Outcome outcome = render();
   ASSERT_EQ(outcome.code, 0);
