@@ -13,7 +13,7 @@ struct Counters {
   uint triangles;         // triangles that the geometry shader let through (counting variant only)
   uint removed;           // nodes of fully shadowed pixels that were unlinked (counting variant only)
   uint unchanged;         // masks that already had the bits (counting variant only)
-  uint unused;
+  uint carries;           // times that fragments (low 16 bits) and visibility_tests (high) have passed 32 bits
 };
 
 struct UnsurePair {

@@ -31,6 +31,8 @@ void print_gl(const std::string& context_name) {
   for (const gpu::ContextAttempt& attempt : gl.context.attempts)
     table.add_row({"context " + attempt.name, attempt.failure.empty() ? taken : attempt.failure});
   for (const auto& [name, value] : gpu::describe(gl.capabilities)) table.add_row({name, value});
+  const gpu::Room room = gpu::memory_room(gl.capabilities);
+  table.add_row({"memory available", room.bytes ? gpu::megabytes(*room.bytes) : "not said by the system"});
   table.add_row({"ray tracer", reference::embree_version()});
   fmt::print("{}", table.str());
 }

@@ -8,6 +8,7 @@
 #include "app/outputs.h"
 #include "app/peer.h"
 #include "app/results.h"
+#include "app/statistics.h"
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/log.h"
@@ -78,9 +79,9 @@ void print_table(const nlohmann::json& json) {
   fmt::print("{}\n", stages.str());
   Table counts({{"count", Align::left}, {"value"}});
   for (const auto& [name, value] : json["counts"].items()) counts.add_row({name, json_text(value)});
-  for (const auto& [name, value] : json["memory_bytes"].items())
-    counts.add_row({"memory " + name, fmt::format("{:.1f} MB", value.get<double>() * 1e-6)});
-  fmt::print("{}", counts.str());
+  for (const auto& [name, value] : json["averages"].items())
+    counts.add_row({name, fmt::format("{:.2f}", value.get<double>())});
+  fmt::print("{}\n{}\n", counts.str(), memory_line(json));
 }
 
 int render(RenderOptions& o) {
@@ -99,10 +100,10 @@ int render(RenderOptions& o) {
   json["mask_hash"] = mask_hash(mask);
   json["stages"] = stages_json(s.timers);
   json["frame_ms"] = median(timed.frame_ms);
-  json["memory_bytes"] = counts_json(s.renderer.memory());
+  json.update(memory_json(s.renderer));
   if (!timed.peer.is_null()) json["peer"] = timed.peer;
   const Image image = frame_image(s, *s.technique, json);
-  json["counts"] = counts_json(s.renderer.count());
+  json.update(statistics_json(s));
   const std::vector<float>& depth = image.floats("depth");
   if (std::none_of(depth.begin(), depth.end(), [](float d) { return d > 0.0f; }))
     warn("no triangle of '{}' is in view: the picture shows the sky", o.scene);

@@ -137,4 +137,23 @@ nlohmann::json counts_json(const Counts& counts) {
   return object;
 }
 
+nlohmann::json memory_json(const Renderer& renderer) {
+  nlohmann::json json{{"memory_bytes", counts_json(renderer.memory())}, {"memory_available_bytes", nullptr}};
+  if (renderer.room().bytes) json["memory_available_bytes"] = *renderer.room().bytes;
+  return json;
+}
+
+std::string memory_line(const nlohmann::json& json) {
+  Counts groups;
+  uint64_t sum = 0;
+  for (const auto& [name, bytes] : json["memory_bytes"].items()) {
+    groups.emplace_back(name, bytes.get<uint64_t>());
+    sum += groups.back().second;
+  }
+  std::string line = fmt::format("memory: {}; {}", gpu::describe(groups), gpu::megabytes(sum));
+  if (const nlohmann::json& room = json["memory_available_bytes"]; !room.is_null())
+    line += fmt::format(" of {} available", gpu::megabytes(room.get<uint64_t>()));
+  return line;
+}
+
 }  // namespace izb

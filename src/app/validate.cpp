@@ -73,6 +73,7 @@ SceneReport validate_scene(const ValidateOptions& o, const std::string& scene_pa
   s.renderer.render(s.frame.camera, s.frame.light, s.timers);
   s.timers.collect();
   const std::vector<uint32_t> asked = read_mask(s.renderer.mask());
+  const nlohmann::json memory = memory_json(s.renderer);
   std::optional<reference::MaskTwins> twins;
   if (approximates(*s.technique)) twins = render_twins(s, *s.technique);
   // Only an exact mask has nothing but exact bits to explain.
@@ -97,6 +98,7 @@ SceneReport validate_scene(const ValidateOptions& o, const std::string& scene_pa
   SceneReport report{scene_path, provenance(s, frame, *s.technique, o.arguments, scene_path)};
   nlohmann::json& json = report.json;
   json["options"]["points"] = o.points;
+  json.update(memory);
   json["mask_hash"] = mask_hash(asked);
   json["pixels"] = mask.size();
   json["spp"] = receivers.sample_count();
@@ -157,6 +159,7 @@ int validate(const ValidateOptions& o) {
     good &= passes(reports.back(), o.max_leak);
   }
   if (!reports.empty()) print_table(reports);
+  for (const SceneReport& report : reports) fmt::print("{}: {}\n", stem(report.scene), memory_line(report.json));
   std::fflush(stdout);
   for (const std::string& failure : failures) note("{}", failure);
   if (!failures.empty()) return 1;

@@ -29,6 +29,21 @@ size_t GBuffer::bytes() const {
          micro_quad.bytes() + albedo.bytes();
 }
 
+gpu::Plan GBuffer::memory_needed(int width_px, int height_px, bool micro_quads) {
+  gpu::Plan plan;
+  const auto add = [&](const char* part, GLenum format) {
+    plan.push_back(gpu::planned_texture(part, format, width_px, height_px, {"--size"}));
+  };
+  add("depth", GL_DEPTH_COMPONENT32F);
+  add("id", GL_RG32UI);
+  add("eye distance", GL_R32F);
+  add("normal", GL_RG32F);
+  add("shading normal", GL_RG16);
+  if (micro_quads) add("micro-quads", GL_RGBA32F);
+  add("albedo", GL_SRGB8_ALPHA8);
+  return plan;
+}
+
 std::vector<gpu::ProgramSpec> GBufferStage::program_specs() {
   return {{"gbuffer", {"frame/1_gbuffer.vert.glsl", "frame/1_gbuffer.frag.glsl"}, {}},
           {"gbuffer resolve", {"frame/1_gbuffer_resolve.comp.glsl"}, {}},

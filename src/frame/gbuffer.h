@@ -2,6 +2,7 @@
 // Stage `gbuffer` (5.1).
 #pragma once
 #include "frame/scene_buffers.h"
+#include "gpu/memory.h"
 #include "gpu/program.h"
 #include "gpu/timers.h"
 
@@ -22,6 +23,8 @@ struct GBuffer {
   /// Binds the textures to the units that the later stages read.
   void bind() const;
   size_t bytes() const;
+  /// What bytes() will be.
+  static gpu::Plan memory_needed(int width_px, int height_px, bool micro_quads);
 };
 
 class GBufferStage {

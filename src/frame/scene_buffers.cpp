@@ -33,15 +33,16 @@ GLint gl_wrap(Wrap wrap) {
   }
 }
 
+int levels_of(const Texture& t) {
+  return 1 + static_cast<int>(std::floor(std::log2(std::max(t.width_px, t.height_px))));
+}
+
 }  // namespace
 
 SceneBuffers::SceneBuffers(const Scene& scene, DrawList list, const gpu::Capabilities& capabilities)
     : list_(std::move(list)) {
-  const size_t largest = std::max<size_t>({list_.vertex_count * sizeof(glm::vec3), list_.index_count * sizeof(uint32_t),
-                                           list_.instances.size() * sizeof(shared::InstanceFrame)});
-  if (largest > static_cast<size_t>(capabilities.max_storage_block_bytes))
-    fail("scene '{}' needs a buffer of {} MB, but this GL driver stops at {} MB", scene.name, largest >> 20,
-         capabilities.max_storage_block_bytes >> 20);
+  gpu::expect_room({{"scene '" + scene.name + "'", memory_needed(scene, list_)}}, gpu::memory_room(capabilities),
+                   capabilities);
   upload_geometry(scene);
   upload_textures(scene);
 }
@@ -86,8 +87,7 @@ void SceneBuffers::upload_textures(const Scene& scene) {
   const uint8_t white[4] = {255, 255, 255, 255};
   white_.clear(GL_RGBA, GL_UNSIGNED_BYTE, white);
   for (const Texture& t : scene.textures) {
-    const int levels = 1 + static_cast<int>(std::floor(std::log2(std::max(t.width_px, t.height_px))));
-    gpu::Texture texture("base colour " + t.name, GL_SRGB8_ALPHA8, t.width_px, t.height_px, levels);
+    gpu::Texture texture("base colour " + t.name, GL_SRGB8_ALPHA8, t.width_px, t.height_px, levels_of(t));
     glTextureSubImage2D(texture.name(), 0, 0, 0, t.width_px, t.height_px, GL_RGBA, GL_UNSIGNED_BYTE, t.rgba.data());
     glGenerateTextureMipmap(texture.name());
     gpu::Sampler sampler("base colour " + t.name);
@@ -136,9 +136,30 @@ void SceneBuffers::draw_casters() const {
 
 size_t SceneBuffers::bytes() const {
   size_t sum = positions_.bytes() + normals_.bytes() + uvs_.bytes() + indices_.bytes() + instance_ids_.bytes() +
-               commands_.bytes() + instances_.bytes() + materials_.bytes();
+               commands_.bytes() + instances_.bytes() + materials_.bytes() + white_.bytes();
   for (const gpu::Texture& t : textures_) sum += t.bytes();
   return sum;
+}
+
+gpu::Plan SceneBuffers::memory_needed(const Scene& scene, const DrawList& list) {
+  using Kind = gpu::Planned::Kind;
+  gpu::Plan plan;
+  const auto buffer = [&](const char* part, Kind kind, uint64_t count, uint64_t bytes_each) {
+    plan.push_back(gpu::planned_buffer(part, kind, count * bytes_each, {}));
+  };
+  buffer("positions", Kind::storage_buffer, list.vertex_count, sizeof(glm::vec3));
+  buffer("normals", Kind::other_buffer, list.vertex_count, sizeof(glm::vec3));
+  buffer("uvs", Kind::other_buffer, list.vertex_count, sizeof(glm::vec2));
+  buffer("indices", Kind::storage_buffer, list.index_count, sizeof(uint32_t));
+  buffer("instance ids", Kind::other_buffer, list.instances.size(), sizeof(uint32_t));
+  buffer("draw commands", Kind::other_buffer, list.commands.size(), sizeof(DrawCommand));
+  buffer("instances", Kind::storage_buffer, list.instances.size(), sizeof(shared::InstanceFrame));
+  buffer("materials", Kind::storage_buffer, scene.materials.size(), sizeof(shared::MaterialFrame));
+  plan.push_back(gpu::planned_texture("white", GL_SRGB8_ALPHA8, 1, 1, {}));
+  for (const Texture& t : scene.textures)
+    plan.push_back(
+        gpu::planned_texture("base colour " + t.name, GL_SRGB8_ALPHA8, t.width_px, t.height_px, {}, 1, levels_of(t)));
+  return plan;
 }
 
 }  // namespace izb

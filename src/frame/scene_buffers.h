@@ -3,13 +3,14 @@
 #pragma once
 #include "frame/frame_setup.h"
 #include "gpu/capabilities.h"
+#include "gpu/memory.h"
 #include "gpu/objects.h"
 
 namespace izb {
 
 class SceneBuffers {
  public:
-  /// Uploads. Throws izb::Error if a buffer is larger than the driver takes.
+  /// Uploads. Throws izb::Error, before, if there is no room or a buffer or texture is larger than the driver takes.
   SceneBuffers(const Scene& scene, DrawList list, const gpu::Capabilities& capabilities);
 
   const DrawList& draw_list() const { return list_; }
@@ -23,6 +24,8 @@ class SceneBuffers {
   void bind_storage() const;
 
   size_t bytes() const;
+  /// What bytes() will be.
+  static gpu::Plan memory_needed(const Scene& scene, const DrawList& list);
 
  private:
   void upload_geometry(const Scene& scene);

@@ -16,6 +16,10 @@ void ShadeStage::resize(int width_px, int height_px) {
   picture_ = gpu::Texture("picture", GL_RGBA16F, width_px, height_px);
 }
 
+gpu::Plan ShadeStage::memory_needed(int width_px, int height_px) {
+  return {gpu::planned_texture("picture", GL_RGBA16F, width_px, height_px, {"--size"})};
+}
+
 void ShadeStage::render(const gpu::Texture& mask, gpu::StageTimers& timers) {
   const gpu::StageTimers::Scope scope(timers, name(Stage::shade));
   glBindTextureUnit(UNIT_MASK, mask.name());

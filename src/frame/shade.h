@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stage `shade` (5.6).
 #pragma once
+#include "gpu/memory.h"
 #include "gpu/program.h"
 #include "gpu/timers.h"
 
@@ -13,6 +14,8 @@ class ShadeStage {
   /// Camera, light and shade uniform blocks and the G-buffer's textures are bound.
   void render(const gpu::Texture& mask, gpu::StageTimers& timers);
   const gpu::Texture& picture() const { return picture_; }  ///< RGBA16F, linear
+  /// What picture() will take.
+  static gpu::Plan memory_needed(int width_px, int height_px);
   static std::vector<gpu::ProgramSpec> program_specs();
 
  private:

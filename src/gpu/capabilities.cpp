@@ -44,6 +44,8 @@ Capabilities query_capabilities() {
   for (const char* name : {"llvmpipe", "softpipe", "SWR", "Software", "software"})
     c.software |= c.renderer.find(name) != std::string::npos;
   c.max_texture_size = integer_of(GL_MAX_TEXTURE_SIZE);
+  c.max_texture_layers = integer_of(GL_MAX_ARRAY_TEXTURE_LAYERS);
+  c.max_buffer_texels = integer_of(GL_MAX_TEXTURE_BUFFER_SIZE);
   c.max_storage_block_bytes = integer_of(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
   c.subpixel_bits = integer_of(GL_SUBPIXEL_BITS);
   const int64_t count = integer_of(GL_NUM_EXTENSIONS);
@@ -60,6 +62,8 @@ std::vector<std::pair<std::string, std::string>> describe(const Capabilities& c)
       {"GLSL", c.glsl_version},
       {"stage times", c.software ? "wall clock (software renderer)" : "timer queries"},
       {"GL_MAX_TEXTURE_SIZE", fmt::format("{}", c.max_texture_size)},
+      {"GL_MAX_ARRAY_TEXTURE_LAYERS", fmt::format("{}", c.max_texture_layers)},
+      {"GL_MAX_TEXTURE_BUFFER_SIZE", fmt::format("{} texels", c.max_buffer_texels)},
       {"GL_MAX_SHADER_STORAGE_BLOCK_SIZE", fmt::format("{} bytes", c.max_storage_block_bytes)},
       {"GL_SUBPIXEL_BITS", fmt::format("{}", c.subpixel_bits)}};
   for (const char* name : {"GL_NV_conservative_raster", "GL_NV_conservative_raster_dilate",

@@ -11,6 +11,8 @@ struct Capabilities {
   std::string vendor, renderer, version, glsl_version;
   bool software = false;  ///< a CPU renderer: its timer queries miss work, so stages are timed by the wall clock
   int64_t max_texture_size = 0;
+  int64_t max_texture_layers = 0;
+  int64_t max_buffer_texels = 0;
   int64_t max_storage_block_bytes = 0;
   int64_t subpixel_bits = 0;
   std::vector<std::string> extensions;

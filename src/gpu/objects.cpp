@@ -39,10 +39,18 @@ size_t bytes_a_texel(GLenum format) {
 
 }  // namespace
 
+uint64_t texture_bytes(GLenum format, int width_px, int height_px, int layers, int levels) {
+  uint64_t sum = 0;
+  for (int level = 0; level < levels; ++level)
+    sum += uint64_t{bytes_a_texel(format)} * static_cast<uint64_t>(std::max(1, width_px >> level)) *
+           static_cast<uint64_t>(std::max(1, height_px >> level)) * static_cast<uint64_t>(layers);
+  return sum;
+}
+
 Buffer::Buffer(const std::string& text, size_t bytes, const void* data) {
   glCreateBuffers(1, &name_);
   label(GL_BUFFER, name_, text);
-  bytes_ = std::max<size_t>(bytes, 16);
+  bytes_ = buffer_bytes(bytes);
   glNamedBufferStorage(name_, static_cast<GLsizeiptr>(bytes_), bytes >= 16 ? data : nullptr, GL_DYNAMIC_STORAGE_BIT);
   if (bytes < 16 && data) update(0, bytes, data);
   if (const GLenum error = glGetError(); error != GL_NO_ERROR)
@@ -84,9 +92,7 @@ void Texture::finish(const std::string& text, int levels) {
   if (const GLenum error = glGetError(); error != GL_NO_ERROR)
     fail("the GL driver refused texture '{}' of {} x {} x {} (error {:#x})", text, width_px_, height_px_, layers_,
          error);
-  for (int level = 0; level < levels; ++level)
-    bytes_ +=
-        bytes_a_texel(format_) * std::max(1, width_px_ >> level) * std::max(1, height_px_ >> level) * size_t(layers_);
+  bytes_ = texture_bytes(format_, width_px_, height_px_, layers_, levels);
   glTextureParameteri(name_, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(name_, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTextureParameteri(name_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

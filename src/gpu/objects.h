@@ -11,6 +11,13 @@
 
 namespace izb::gpu {
 
+/// What a texture takes, all levels and layers together. Throws izb::Error for a format that izb does not use.
+uint64_t texture_bytes(GLenum format, int width_px, int height_px, int layers = 1, int levels = 1);
+/// What a buffer takes that was asked for `bytes`: an empty one cannot be bound.
+constexpr uint64_t buffer_bytes(uint64_t bytes) {
+  return bytes < 16 ? 16 : bytes;
+}
+
 /// Owns one GL name; Traits has create, destroy and the label's identifier.
 template <typename Traits>
 class Object {
@@ -56,7 +63,7 @@ struct SamplerTraits {
 class Buffer : public Object<BufferTraits> {
  public:
   Buffer() = default;
-  /// Immutable storage of `bytes` (at least 16: an empty buffer cannot be bound), from `data` or undefined.
+  /// Immutable storage of buffer_bytes(bytes), from `data` or undefined.
   Buffer(const std::string& label, size_t bytes, const void* data = nullptr);
   template <typename T>
   Buffer(const std::string& label, const std::vector<T>& data) : Buffer(label, data.size() * sizeof(T), data.data()) {}

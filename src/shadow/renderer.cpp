@@ -6,6 +6,15 @@
 #include "shared/lists.h"
 
 namespace izb {
+namespace {
+
+uint64_t sum_of(const Counts& counts) {
+  uint64_t sum = 0;
+  for (const auto& [name, count] : counts) sum += count;
+  return sum;
+}
+
+}  // namespace
 
 Renderer::Renderer(const Scene& scene, const gpu::Capabilities& capabilities)
     : scene_(scene),
@@ -24,6 +33,11 @@ void Renderer::prepare(Technique& technique, int width_px, int height_px) {
     fail("size {}x{} is outside what this GL driver takes, 1 to {} pixels a side", width_px, height_px, largest);
   if (const std::string reason = technique.missing(capabilities_); !reason.empty())
     fail("technique '{}' cannot run: {}", technique.info().name, reason);
+  // What this object and the technique hold already is replaced, or needed again.
+  const uint64_t held = buffers_.bytes() + gbuffer_.gbuffer().bytes() + shade_.picture().bytes() +
+                        visibility_.mask.bytes() + sum_of(technique.memory());
+  room_ = gpu::memory_room(capabilities_, held);
+  gpu::expect_room(memory_needed(technique, width_px, height_px), room_, capabilities_);
   technique_ = &technique;
   inputs_.samples = technique.samples();
   const bool micro_quads = inputs_.samples.count() > 1;
@@ -69,13 +83,21 @@ Counts Renderer::count() {
 }
 
 Counts Renderer::memory() const {
-  uint64_t technique = visibility_.mask.bytes();
   Counts counts;
-  for (const auto& [part, bytes] : technique_->memory()) technique += bytes;
-  counts.emplace_back(technique_->info().name, technique);
+  counts.emplace_back(technique_->info().name, sum_of(technique_->memory()) + visibility_.mask.bytes());
   counts.emplace_back("gbuffer", gbuffer_.gbuffer().bytes() + shade_.picture().bytes());
   counts.emplace_back("scene", buffers_.bytes());
   return counts;
+}
+
+gpu::Plans Renderer::memory_needed(const Technique& technique, int width_px, int height_px) const {
+  gpu::Plan its = technique.memory_needed(width_px, height_px);
+  its.push_back(gpu::planned_texture("mask", GL_R32UI, width_px, height_px, {"--size"}));
+  gpu::Plan gbuffer = GBuffer::memory_needed(width_px, height_px, technique.samples().count() > 1);
+  for (gpu::Planned& p : ShadeStage::memory_needed(width_px, height_px)) gbuffer.push_back(std::move(p));
+  return {{technique.info().name, std::move(its)},
+          {"gbuffer", std::move(gbuffer)},
+          {"scene", SceneBuffers::memory_needed(scene_, buffers_.draw_list())}};
 }
 
 std::vector<gpu::ProgramSpec> Renderer::program_specs() {

@@ -14,8 +14,8 @@ class Renderer {
   /// The scene must outlive the renderer. Throws izb::Error if the driver refuses a buffer or a program.
   Renderer(const Scene& scene, const gpu::Capabilities& capabilities);
 
-  /// Fixes size, technique and its options. Throws izb::Error if the size is beyond the driver's limits or the
-  /// technique lacks a capability.
+  /// Fixes size, technique and its options. Throws izb::Error if the size is beyond the driver's limits, there is too
+  /// little memory, or the technique lacks a capability.
   void prepare(Technique& technique, int width_px, int height_px);
 
   /// One frame. Stage times go to `timers`.
@@ -31,6 +31,10 @@ class Renderer {
   const SceneBuffers& scene_buffers() const { return buffers_; }
   /// GPU memory by group: "izb" or the technique's name with the mask, "gbuffer" with the picture, "scene".
   Counts memory() const;
+  /// What memory() will be after prepare(), before exact insertion's pool grows.
+  gpu::Plans memory_needed(const Technique& technique, int width_px, int height_px) const;
+  /// What there was for all of it at the last prepare().
+  const gpu::Room& room() const { return room_; }
 
   /// All programs that any technique compiles, and the frame's own. Needs no GL.
   static std::vector<gpu::ProgramSpec> program_specs();
@@ -47,6 +51,7 @@ class Renderer {
   UniformBlock<shared::LightFrame> light_block_;
   UniformBlock<shared::ShadeFrame> shade_block_;
   UniformBlock<shared::SampleFrame> samples_block_;
+  gpu::Room room_;
   Visibility visibility_;
   FrameInputs inputs_;
   std::vector<shared::InstanceFrame> instances_;

@@ -10,6 +10,7 @@
 #include "frame/frame_inputs.h"
 #include "gpu/capabilities.h"
 #include "gpu/glsl_front_end.h"
+#include "gpu/memory.h"
 #include "gpu/timers.h"
 
 namespace izb {
@@ -51,6 +52,8 @@ class Technique {
   virtual Counts count(const FrameInputs& in, Visibility& out) = 0;
   /// GPU memory of its own, by name, in bytes; the mask is the frame's.
   virtual Counts memory() const = 0;
+  /// What resize() would take with the options as they are, part by part as memory() names them. Needs no GL.
+  virtual gpu::Plan memory_needed(int width_px, int height_px) const = 0;
   /// Length of the longest list in which each pixel stands (bottom row first), or empty if it has no lists.
   virtual std::vector<float> list_lengths() const { return {}; }
   /// Entry n: how many lists have n nodes; empty if it has no lists.

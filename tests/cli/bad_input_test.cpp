@@ -248,6 +248,40 @@ TEST_F(BadInput, SizeBeyondTheDrivers) {
   expect_refused(render(good(), {"--size", "1000000x18"}), "1000000x18", "pixels");
 }
 
+TEST_F(BadInput, MoreMemoryThanThereIs) {
+  const RunOptions little{{{"IZB_MEMORY_BYTES", "20000000"}}, false};
+  expect_refused(render(good(), {"--grid", "2048"}, little), "not enough memory: ", "gbuffer");
+  const Outcome outcome = render(good(), {"--grid", "2048", "--cascades", "2", "--spp", "32"}, little);
+  for (const char* part : {"(izb ", "IZB_MEMORY_BYTES has 20.0 MB left", "--grid", "--cascades", "--size", "--nodes"})
+    EXPECT_TRUE(outcome.says(part)) << part << "\n" << outcome.err;
+  expect_refused(render(good(), {}, {{{"IZB_MEMORY_BYTES", "little"}}, false}), "IZB_MEMORY_BYTES", "'little'");
+  EXPECT_EQ(render(good(), {"--grid", "64", "--pairs", "16"}, little).code, 0);
+}
+
+TEST_F(BadInput, ASizeThatNoMachineHasMemoryFor) {
+  const Outcome outcome =
+      render(good(), {"--size", "16384x16384", "--cascades", "8", "--grid", "16384", "--spp", "32"});
+  EXPECT_EQ(outcome.code, 1);
+  ASSERT_EQ(outcome.error_lines().size(), 1u) << outcome.err;
+  EXPECT_TRUE(outcome.says("--size") && outcome.says("--grid") && outcome.says("--cascades")) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(names_in(output), std::vector<std::string>{});
+}
+
+TEST_F(BadInput, ValidateSaysThatMemoryIsShort) {
+  const Outcome outcome =
+      izb::test::izb({"validate", good(), "--size", "320x180"}, {{{"IZB_MEMORY_BYTES", "20000000"}}, false});
+  expect_refused(outcome, "not enough memory: ", "--grid");
+}
+
+TEST_F(BadInput, ExactInsertionsPoolThatDoesNotFit) {
+  // What is known beforehand takes 4.5 MB; then each of the grid's 2^20 texels gets a node.
+  const Outcome outcome =
+      render(good(), {"--spp", "32", "--insertion", "exact", "--grid", "1024", "--zcull", "off", "--pairs", "16"},
+             {{{"IZB_MEMORY_BYTES", "6000000"}}, false});
+  expect_refused(outcome, "exact insertion", "--grid");
+}
+
 // ---- the output
 // -----------------------------------------------------------------------------------------------------
 

@@ -128,6 +128,50 @@ TEST_F(Output, JsonHasTheDocumentedKeys) {
   EXPECT_EQ(j["mask_hash"].get<std::string>().size(), 64u);
 }
 
+TEST_F(Output, TheListHistogramAddsUpToTheCounts) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{}, {"--spp", "32", "--cascades", "2", "--removal", "on"}}) {
+    ASSERT_EQ(render(words).code, 0);
+    const nlohmann::json j = read_json(json), counts = j["counts"], averages = j["averages"];
+    const auto histogram = j["list_histogram"].get<std::vector<uint64_t>>();
+    uint64_t lists = 0, nodes = 0;
+    for (size_t n = 1; n < histogram.size(); ++n) lists += histogram[n], nodes += n * histogram[n];
+    EXPECT_GT(nodes, 0u);
+    EXPECT_EQ(nodes, counts["nodes"]);
+    EXPECT_EQ(lists, counts["lists"]);
+    EXPECT_EQ(histogram.size() - 1, counts["longest_list"]);
+    EXPECT_EQ(histogram[0] + lists, 256u * 256u * (words.empty() ? 1u : 2u));
+
+    uint64_t fully_shadowed = 0;
+    const izb::Image image = izb::read_exr(exr);
+    for (const uint32_t word : image.uints("mask")) fully_shadowed += word == ~0u;
+    EXPECT_GT(fully_shadowed, 0u);
+    EXPECT_EQ(counts["fully_shadowed"], fully_shadowed);
+    EXPECT_GT(counts["receivers"], fully_shadowed);
+    if (words.empty()) {
+      EXPECT_EQ(counts["receivers"], nodes);  // one node each
+    }
+    const auto of = [&](const char* name) { return counts[name].get<double>(); };
+    EXPECT_DOUBLE_EQ(averages["nodes_a_receiver"], of("nodes") / of("receivers"));
+    EXPECT_DOUBLE_EQ(averages["nodes_a_list"], of("nodes") / of("lists"));
+    EXPECT_DOUBLE_EQ(averages["tests_a_fragment"], of("visibility_tests") / of("fragments_after_zcull"));
+    EXPECT_DOUBLE_EQ(averages["tests_a_receiver"], of("visibility_tests") / of("receivers"));
+  }
+}
+
+TEST_F(Output, MemoryIsPrintedAndInTheJson) {
+  const Outcome outcome = render();
+  ASSERT_EQ(outcome.code, 0);
+  const nlohmann::json j = read_json(json);
+  for (const char* group : {"izb", "gbuffer", "scene"}) EXPECT_GT(j["memory_bytes"][group], 0) << group;
+  EXPECT_EQ(j["memory_bytes"]["gbuffer"], 64 * 36 * 40);
+  EXPECT_TRUE(std::regex_search(outcome.out, std::regex("\nmemory: gbuffer 0\\.1 MB, izb .* MB, scene .* MB; .* MB")))
+      << outcome.out;
+  if (!j["memory_available_bytes"].is_null()) {
+    EXPECT_TRUE(outcome.prints(" MB available")) << outcome.out;
+  }
+}
+
 TEST_F(Output, TechniquesWriteTheSameLayoutAndHereTheSameMask) {
   ASSERT_EQ(render().code, 0);
   const std::string hash = read_json(json)["mask_hash"];
@@ -306,8 +350,8 @@ TEST_F(Output, InfoSaysThatBlendIsOpaque) {
 TEST_F(Output, InfoTellsTheContextAndTheScene) {
   const Outcome outcome = izb::test::izb({"info", scene});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  for (const char* text :
-       {"context egl", "platform: ", "renderer", "GL_MAX_TEXTURE_SIZE", "triangles", "4 placed", "above", "noon"})
+  for (const char* text : {"context egl", "platform: ", "renderer", "GL_MAX_TEXTURE_SIZE", "memory available",
+                           "triangles", "4 placed", "above", "noon"})
     EXPECT_TRUE(outcome.prints(text)) << text << "\n" << outcome.out;
 }
 

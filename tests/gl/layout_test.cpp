@@ -99,7 +99,7 @@ const std::map<std::string, Block> blocks{
       {FIELD("counters", Counters, pairs), FIELD("counters", Counters, capacity),
        FIELD("counters", Counters, fragments), FIELD("counters", Counters, visibility_tests),
        FIELD("counters", Counters, triangles), FIELD("counters", Counters, removed),
-       FIELD("counters", Counters, unchanged), FIELD("counters", Counters, unused)}}},
+       FIELD("counters", Counters, unchanged), FIELD("counters", Counters, carries)}}},
     {"InstanceBlock",
      {sizeof(InstanceFrame),
       true,

@@ -124,8 +124,9 @@ void main() {
     unsure = walk(eye, triangle, head_texel, w, px);
   }
 #ifdef COUNT
-  atomicAdd(counters.fragments, 1u);
-  atomicAdd(counters.visibility_tests, w.tests);
+  if (atomicAdd(counters.fragments, 1u) == 0xffffffffu) atomicAdd(counters.carries, 1u);
+  uint tests = atomicAdd(counters.visibility_tests, w.tests);
+  if (tests + w.tests < tests) atomicAdd(counters.carries, 1u << 16);
   atomicAdd(counters.removed, w.removed);
   atomicAdd(counters.unchanged, w.unchanged);
 #endif

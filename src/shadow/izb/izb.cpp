@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/izb/izb.h"
 
-#include <algorithm>
-
 #include "base/error.h"
 #include "frame/spine.h"
 #include "shadow/izb/table.h"
@@ -54,7 +52,7 @@ void Izb::resize(int width_px, int height_px) {
   no_attributes_ = gpu::VertexArray("none");
   counters_ = gpu::Buffer("izb counters", sizeof(shared::Counters));
   pairs_ = gpu::Buffer("izb unsure pairs", sizeof(shared::UnsurePair) * static_cast<size_t>(s.pair_capacity));
-  pool_counter_ = gpu::Buffer("izb pool counter", sizeof(shared::PoolCounters));
+  pool_counter_ = s.pool() ? gpu::Buffer("izb pool counter", sizeof(shared::PoolCounters)) : gpu::Buffer();
   table_ = gpu::BufferTexture();
   if (s.table())
     table_ = gpu::BufferTexture("visibility look-up table", make_visibility_table(samples(), s.table_side()));
@@ -108,8 +106,7 @@ void Izb::count_pool(const FrameInputs& in) {
   if (rows > shared::pool_width)
     fail("exact insertion needs {} nodes; {} is the most: take a smaller --grid or --size", nodes,
          int64_t(shared::pool_width) * shared::pool_width - 1);
-  if (rows > nodes_.height_px())
-    nodes_ = gpu::Texture("izb nodes", GL_RG32UI, shared::pool_width, std::min(rows + rows / 8, shared::pool_width));
+  if (rows > nodes_.height_px()) grow_pool(rows);
   pool_counter_.fill(0);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -206,12 +203,6 @@ shared::Counters Izb::visibility_counted(const FrameInputs& in, Visibility& out,
   if (built_.removal) build(in);
   visibility(in, out, pass);
   return counters_.read<shared::Counters>(1)[0];
-}
-
-Counts Izb::memory() const {
-  return {{"heads", heads_.bytes()},       {"nodes", nodes_.bytes()},
-          {"furthest", furthest_.bytes()}, {"zcull", depth_.bytes() + pyramid_.bytes()},
-          {"table", table_.bytes()},       {"pairs", pairs_.bytes() + counters_.bytes()}};
 }
 
 std::unique_ptr<Technique> make_izb() {

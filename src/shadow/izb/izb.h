@@ -32,6 +32,7 @@ class Izb final : public Technique {
   void render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) override;
   Counts count(const FrameInputs& in, Visibility& out) override;
   Counts memory() const override;
+  gpu::Plan memory_needed(int width_px, int height_px) const override;
   std::vector<float> list_lengths() const override;
   std::vector<uint64_t> list_histogram() const override;
   std::vector<gpu::ProgramSpec> program_specs() const override { return izb_program_specs(); }
@@ -51,6 +52,7 @@ class Izb final : public Technique {
 
   void build(const FrameInputs& in);
   void count_pool(const FrameInputs& in);
+  void grow_pool(int rows);
   void zcull();
   void pyramid();
   void visibility(const FrameInputs& in, Visibility& out, const Pass& pass);

@@ -8,6 +8,18 @@
 
 namespace izb {
 
+namespace {
+
+uint64_t fragments_of(const shared::Counters& c) {
+  return c.fragments + (uint64_t{c.carries & 0xffffu} << 32);
+}
+
+uint64_t tests_of(const shared::Counters& c) {
+  return c.visibility_tests + (uint64_t{c.carries >> 16} << 32);
+}
+
+}  // namespace
+
 Counts Izb::count(const FrameInputs& in, Visibility& out) {
   const shared::Counters all = visibility_counted(in, out, {IzbProgram::visibility_counted_all, false});
   const shared::Counters culled =
@@ -21,9 +33,9 @@ Counts Izb::count(const FrameInputs& in, Visibility& out) {
   }
   return {{"triangles", all.triangles},
           {"triangles_after_zcull", culled.triangles},
-          {"fragments", all.fragments},
-          {"fragments_after_zcull", culled.fragments},
-          {"visibility_tests", culled.visibility_tests},
+          {"fragments", fragments_of(all)},
+          {"fragments_after_zcull", fragments_of(culled)},
+          {"visibility_tests", tests_of(culled)},
           {"nodes", nodes},
           {"lists", lists},
           {"longest_list", histogram.empty() ? 0 : histogram.size() - 1},

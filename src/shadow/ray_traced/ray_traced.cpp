@@ -38,6 +38,7 @@ class RayTraced final : public Technique {
 
   Counts count(const FrameInputs& in, Visibility& out) override { return {{"rays", trace(in, out)}}; }
   Counts memory() const override { return {}; }
+  gpu::Plan memory_needed(int, int) const override { return {}; }
   std::vector<gpu::ProgramSpec> program_specs() const override { return {}; }
 
  private:
