@@ -16,6 +16,9 @@ struct Footprint {
   vec3 p2;
   vec3 p3;
   int count;  // corners: 0 (nothing), 3 or 4
+  // Half the side of the square that a rasteriser must sweep over the bare triangle to do without the polygon; without
+  // bounds where that must not be left to it.
+  float square;
 };
 
 // Depth at (x, y) of the plane through p0 with the given slopes.
@@ -43,6 +46,7 @@ SHARED Footprint make_footprint(IN(LightFrame) light, IN(LightWindow) window, IN
                                 float half_texel) {
   Footprint f;
   f.count = 0;
+  f.square = 3.0e38f;
   f.box = vec4(0.0f);
   f.p0 = vec3(0.0f);
   f.p1 = vec3(0.0f);
@@ -112,6 +116,14 @@ SHARED Footprint make_footprint(IN(LightFrame) light, IN(LightWindow) window, IN
   vec3 base = sloped ? vec3(ga.x, ga.y, ga.z - drop - z_guard) : vec3(ga.x, ga.y, z_min - z_guard);
   if (!sloped) slope = vec2(0.0f);
 
+  // Hardware snaps the bare triangle: something must be left of it (its area changes by half of this at most), its plane
+  // must be exact enough for hardware_offset_factor, wherever in the grid it is evaluated from; and nothing may be clipped.
+  float vertex_guard = guard - window.guard.x;
+  float extent = abs(e1.x) + abs(e1.y) + abs(e2.x) + abs(e2.y);
+  float least_det = 4.0f * vertex_guard * extent + 16.0f * vertex_guard * vertex_guard +
+                    64.0f * unit_roundoff * extent * extent * (extent + side);
+  if (finite && abs(det) > least_det && reach - side < 32000.0f) f.square = half_width;
+
   // The three polygons and their areas.
   vec2 cut_size = vec2(cut.z - cut.x, cut.w - cut.y);
   float box_area = cut_size.x * cut_size.y;
@@ -170,6 +182,24 @@ SHARED Footprint make_footprint(IN(LightFrame) light, IN(LightWindow) window, IN
   f.count = take_shifted ? 3 : 4;
   return f;
 }
+
+// ---- hardware that rasterises conservatively by itself ---------------------------------------------------------------
+
+// A vertex for it: in texels, and nearer than its own depth by that depth's error. Behind a positional light any place
+// will do, since such a triangle is not left to hardware.
+SHARED vec3 hardware_vertex(IN(LightFrame) light, IN(LightWindow) window, IN(vec3) p_vs) {
+  vec3 p = light_position(light, p_vs);
+  if (is_positional(light) && p.z <= 0.0f) return vec3(0.0f);
+  vec3 g = grid_position(window, light_uvd(light, p));
+  float guard =
+      window.depth.z + d_error(light, p_vs, p) * window.depth.y + 64.0f * unit_roundoff * (1.0f + abs(g.z));
+  return vec3(g.x, g.y, g.z - guard);
+}
+
+// The factor of glPolygonOffset, times the larger slope of the snapped plane, that lowers the depth at a texel's centre to
+// that of any point of the triangle within the square of half side `square` about it: the depth changes by the sum of both
+// slopes times that, at most. An eighth is for the plane's own rounding.
+SHARED float hardware_offset_factor(float square) { return -(2.0f * square + 0.125f); }
 
 SHARED_END
 #endif

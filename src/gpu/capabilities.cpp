@@ -51,6 +51,12 @@ Capabilities query_capabilities() {
   const int64_t count = integer_of(GL_NUM_EXTENSIONS);
   for (int64_t i = 0; i < count; ++i)
     c.extensions.emplace_back(reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(i))));
+  if (c.has("GL_NV_conservative_raster_dilate")) {
+    float range[2] = {};
+    glGetFloatv(GL_CONSERVATIVE_RASTER_DILATE_RANGE_NV, range);
+    glGetFloatv(GL_CONSERVATIVE_RASTER_DILATE_GRANULARITY_NV, &c.raster_dilation_step_px);
+    c.raster_dilation_px = range[1];
+  }
   return c;
 }
 

@@ -16,6 +16,8 @@ struct Capabilities {
   int64_t max_storage_block_bytes = 0;
   int64_t subpixel_bits = 0;
   std::vector<std::string> extensions;
+  /// By how many pixels GL_NV_conservative_raster_dilate can dilate, and in what steps; 0 without it.
+  float raster_dilation_px = 0, raster_dilation_step_px = 0;
 
   bool has(const std::string& extension) const;
 };

@@ -17,6 +17,7 @@ struct ProgramSpec {
   std::string label;
   std::vector<std::string> files;
   Defines defines;
+  std::vector<std::string> extensions{};  ///< that a driver must have to take it
 };
 
 struct CheckedShader {

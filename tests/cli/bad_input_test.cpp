@@ -420,6 +420,18 @@ TEST_F(BadInput, WithoutGl45EveryContextIsNamed) {
   EXPECT_TRUE(outcome.says("glfw: ")) << outcome.err;
 }
 
+TEST_F(BadInput, HardwareRasterWhereTheDriverLacksIt) {
+  const fs::path scene = good();
+  const Outcome outcome = render(scene, {"--raster", "hw"});
+  if (outcome.code == 0) GTEST_SKIP() << "this driver has what --raster hw needs";
+  expect_refused(outcome, "--raster hw needs ", "GL_NV_");
+  if (!izb::test::izb({"info"}).prints("llvmpipe")) return;
+  for (const char* extension : {"GL_NV_conservative_raster", "GL_NV_geometry_shader_passthrough"})
+    EXPECT_TRUE(outcome.says(extension)) << outcome.err;
+  expect_refused(izb::test::izb({"validate", scene, "--size", "32x18", "--raster", "hw"}), "--raster hw needs ",
+                 "GL_NV_");
+}
+
 TEST_F(BadInput, ShaderFilesThatAreNotThere) {
   const Outcome outcome = render(good(), {}, {{{"IZB_GLSL", folder / "absent"}}, false});
   expect_refused(outcome, (folder / "absent").string(), "shader");

@@ -45,7 +45,8 @@ const std::vector<std::string> frame_options{"--size",  "--camera",    "--eye", 
 TEST(Help, RenderIsComplete) {
   const std::string help = help_of({"render"});
   expect_options(help, frame_options);
-  expect_options(help, {"--output", "--preview", "--json", "--repeat", "--peer", "--grid", "--zcull", "--nl-cull"});
+  expect_options(
+      help, {"--output", "--preview", "--json", "--repeat", "--peer", "--grid", "--raster", "--zcull", "--nl-cull"});
   for (const char* text : {"default 1280x720", "degrees", "default 2048", "default on", "pixels", "world units"})
     EXPECT_NE(help.find(text), std::string::npos) << text << "\n" << help;
 }

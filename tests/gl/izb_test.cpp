@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "gl/frame_fixture.h"
+#include "shadow/izb/hardware_raster.h"
 
 namespace izb::test {
 namespace {
@@ -169,6 +170,43 @@ TEST(Izb, ThePyramidEndsTrianglesThatNoReceiverLiesBehindAndCostsNoOccluder) {
     EXPECT_LE(with.count("fragments_after_zcull"), without.count("fragments_after_zcull")) << grid;
     EXPECT_GT(with.count("fragments_after_zcull"), without.count("fragments_after_zcull") * 98 / 100) << grid;
   }
+}
+
+TEST(Izb, HardwareRasterWritesTheMaskOfTheGeometryShader) {
+  if (const std::string lack = HardwareRaster::missing(capabilities(), 0.5); !lack.empty()) GTEST_SKIP() << lack;
+  for (uint32_t seed = 0; seed < 6; ++seed) {
+    const Scene scene = tangled_scene(70 + seed, 300, seed % 2 ? 1e4 : 1.0);
+    for (const Light& light : lights())
+      for (const Settings& settings : {Settings{{"grid", "512"}},
+                                       {{"grid", "512"}, {"zcull", "off"}},
+                                       {{"grid", "512"}, {"pairs", "0"}},
+                                       {{"grid", "256"}, {"spp", "32"}, {"insertion", "exact"}, {"cascades", "4"}}}) {
+        const Frame ours = render_frame(scene, camera, light, width_px, height_px, with(settings, {{"raster", "hw"}}));
+        const Frame theirs = render_frame(scene, camera, light, width_px, height_px, settings);
+        EXPECT_EQ(different(ours.mask, theirs.mask), 0u) << "seed " << seed << " light " << int(light.type);
+      }
+  }
+}
+
+TEST(HardwareRaster, DilatesByWhatTheDriverHas) {
+  gpu::Capabilities driver;
+  EXPECT_EQ(
+      HardwareRaster::missing(driver, 0.5),
+      "--raster hw needs GL_NV_conservative_raster and GL_NV_geometry_shader_passthrough, which this driver lacks");
+  driver.extensions = {"GL_NV_conservative_raster", "GL_NV_geometry_shader_passthrough"};
+  EXPECT_EQ(HardwareRaster::missing(driver, 0.5), "");
+  EXPECT_EQ(HardwareRaster(driver, 0.5).shifts().size(), 4u);
+  EXPECT_EQ(HardwareRaster(driver, 0.5).square(), 0.75f);
+  EXPECT_NE(HardwareRaster::missing(driver, 1.0).find("0.6875 texels without GL_NV_conservative_raster_dilate"),
+            std::string::npos);
+  driver.raster_dilation_px = 0.75f;
+  driver.raster_dilation_step_px = 0.25f;
+  EXPECT_EQ(HardwareRaster(driver, 0.5).shifts().size(), 1u);
+  EXPECT_EQ(HardwareRaster(driver, 0.5).square(), 0.75f);
+  EXPECT_EQ(HardwareRaster::missing(driver, 1.0), "");
+  EXPECT_EQ(HardwareRaster(driver, 1.0).square(), 1.25f);
+  EXPECT_NE(HardwareRaster::missing(driver, 1.5).find("1.1875 texels with GL_NV_conservative_raster_dilate"),
+            std::string::npos);
 }
 
 TEST(Izb, NlCullLeavesOutOnlyPixelsWhoseLightTermIsZero) {

@@ -1,7 +1,8 @@
 #version 450 core
 // 5.5 Each fragment walks its texel's list, tests each listed pixel against the triangle, and adds shadow to its mask.
 // Defines, beside those of receivers.glsl and coverage.glsl: CASCADES: several layers; PIPELINE: fetch one node ahead (6.8);
-// COUNT: count fragments and tests; IN_DOUBLE: decide unsure pairs here (when their list overflowed).
+// COUNT: count fragments and tests; IN_DOUBLE: decide unsure pairs here (when their list overflowed); HW: hardware chose the
+// texels.
 #include "shared/bindings.h"
 #include "shared/occlusion.h"
 #include "shared/pairs.h"
@@ -22,7 +23,9 @@ layout(binding = UNIT_ID) uniform usampler2D id_texture;
 layout(location = 0) flat in vec3 g_a;
 layout(location = 1) flat in vec3 g_b;
 layout(location = 2) flat in vec3 g_c;
+#ifndef HW
 layout(location = 3) flat in vec4 g_box;
+#endif
 layout(location = 4) flat in uvec2 g_id;
 
 #ifdef SPP32
@@ -100,7 +103,11 @@ bool walk(CameraFrame eye, Triangle triangle, ivec3 head_texel, inout Walk w, ou
 }
 
 void main() {
+#ifdef HW
+  if (g_id.x == 0u) discard;
+#else
   if (any(lessThan(gl_FragCoord.xy, g_box.xy)) || any(greaterThan(gl_FragCoord.xy, g_box.zw))) discard;
+#endif
   CameraFrame eye = camera;  // read once, not in every round of the loop
   Triangle triangle = make_triangle(eye);
 #ifdef CASCADES

@@ -1,11 +1,12 @@
 #version 450 core
 // 5.5 Conservative rasterisation by dilation: the triangle's footprint on the light-space grid, with its vertices for the
 // test in the fragment shader. CASCADES: into the layers [first, end) of `cascades`, at most CASCADES of them (6.4).
+// REST: only what 5_visibility_hw.geom.glsl leaves.
 #include "shared/bindings.h"
 #include "shared/footprint.h"
-#include "shared/occlusion.h"
 #include "shared/pairs.h"
 #include "shared/pyramid.h"
+#include "shadow/izb/vertices.glsl"
 
 layout(triangles) in;
 #ifdef CASCADES
@@ -15,6 +16,9 @@ layout(location = 2) uniform ivec2 cascades;
 layout(triangle_strip, max_vertices = 4) out;
 #endif
 layout(location = 1) uniform float dilation;  // texels
+#ifdef REST
+layout(location = 3) uniform float hardware_square;  // half the side, texels
+#endif
 
 layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
 layout(std140, binding = BIND_WINDOWS) uniform WindowBlock { LightWindow windows[max_cascades]; };
@@ -53,15 +57,6 @@ bool behind_all(Footprint f, int cascade) {
 }
 #endif
 
-#ifdef SPP32
-void order(inout vec3 first, inout vec3 second) {
-  bool swapped = position_less(second, first);
-  vec3 kept = first;
-  first = swapped ? second : first;
-  second = swapped ? kept : second;
-}
-#endif
-
 void emit(vec3 corner, Footprint f, vec3 a, vec3 b, vec3 c, int cascade) {
   gl_Position = vec4(corner.xy * (2.0 / float(light.grid.x)) - 1.0, corner.z, 1.0);
   g_a = a;
@@ -78,6 +73,9 @@ void emit(vec3 corner, Footprint f, vec3 a, vec3 b, vec3 c, int cascade) {
 void spawn(vec3 a, vec3 b, vec3 c, int cascade) {
   Footprint f = make_footprint(light, windows[cascade], a, b, c, dilation);
   if (f.count == 0) return;
+#ifdef REST
+  if (f.square <= hardware_square) return;
+#endif
 #ifdef PYRAMID
   if (behind_all(f, cascade)) return;
 #endif
@@ -94,10 +92,7 @@ void spawn(vec3 a, vec3 b, vec3 c, int cascade) {
 void main() {
   vec3 a = v_position_vs[0], b = v_position_vs[1], c = v_position_vs[2];
 #if defined(SPP32) && !defined(IN_DOUBLE)
-  // By position, once a triangle: two triangles that share an edge then give the same numbers for it.
-  order(a, b);
-  order(b, c);
-  order(a, b);
+  order_vertices(a, b, c);  // once a triangle
 #endif
 #ifdef CASCADES
   for (int cascade = cascades.x; cascade < cascades.y; ++cascade) spawn(a, b, c, cascade);

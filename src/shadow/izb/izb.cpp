@@ -14,6 +14,8 @@ std::string Izb::missing(const gpu::Capabilities& capabilities) const {
   if (capabilities.subpixel_bits < 8)
     return fmt::format("the rasteriser has {} sub-pixel bits; the guard of conservative rasterisation needs 8",
                        capabilities.subpixel_bits);
+  if (settings_.hardware())
+    if (std::string lack = HardwareRaster::missing(capabilities, settings_.dilation()); !lack.empty()) return lack;
   return settings_.grid > capabilities.max_texture_size
              ? fmt::format("--grid {} is beyond this driver's largest texture, {}", settings_.grid,
                            capabilities.max_texture_size)
@@ -25,6 +27,7 @@ void Izb::resize(int width_px, int height_px) {
   const IzbSettings& s = built_;
   width_px_ = width_px, height_px_ = height_px;
   programs_ = IzbPrograms(s);
+  if (s.hardware()) hardware_ = HardwareRaster(gpu::query_capabilities(), s.dilation());
   heads_ = gpu::Texture::array("izb heads", GL_R32UI, s.grid, s.grid, s.cascades);
   if (s.pool())
     nodes_ = gpu::Texture("izb nodes", GL_RG32UI, shared::pool_width, 1);
@@ -151,15 +154,34 @@ void Izb::bind_lists(const Visibility& out) const {
   if (table_) glBindTextureUnit(UNIT_TABLE, table_.name());
 }
 
-// Every caster once for all cascades, or once for each.
+// The triangles as they are: a passthrough geometry shader makes no polygons and reaches one layer.
+void Izb::draw_by_hardware(const FrameInputs& in, IzbProgram program) {
+  programs_[program].use();
+  hardware_.begin();
+  for (const glm::vec2& shift : hardware_.shifts())
+    for (int cascade = 0; cascade < built_.cascades; ++cascade) {
+      glUniform2f(4, shift.x, shift.y);
+      if (built_.cascades > 1) glUniform2i(2, cascade, cascade + 1);
+      in.draw_casters();
+    }
+  hardware_.end();
+}
+
+// Every caster once for all cascades, or once for each. Of what hardware rasterises only the rest, that it does not
+// surely cover.
 void Izb::draw(const FrameInputs& in, const Pass& pass) {
   if (pass.culled) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDepthMask(GL_FALSE);
   }
+  if (built_.hardware())
+    draw_by_hardware(in, pass.program == IzbProgram::visibility             ? IzbProgram::hardware
+                         : pass.program == IzbProgram::visibility_in_double ? IzbProgram::hardware_in_double
+                                                                            : IzbProgram::hardware_counted);
   programs_[pass.program].use();
   glUniform1f(1, static_cast<float>(built_.dilation()));
+  if (built_.hardware()) glUniform1f(3, hardware_.square());
   const int layers = built_.layers_a_pass();
   for (int first = 0; first < built_.cascades; first += layers) {
     if (built_.cascades > 1) glUniform2i(2, first, first + layers);

@@ -3,6 +3,7 @@
 // Z-Buffers", I3D 2015.
 #pragma once
 #include "gpu/program.h"
+#include "shadow/izb/hardware_raster.h"
 #include "shadow/izb/internals.h"
 #include "shadow/izb/programs.h"
 #include "shadow/technique.h"
@@ -58,6 +59,7 @@ class Izb final : public Technique {
   void visibility(const FrameInputs& in, Visibility& out, const Pass& pass);
   void bind_lists(const Visibility& out) const;
   void draw(const FrameInputs& in, const Pass& pass);
+  void draw_by_hardware(const FrameInputs& in, IzbProgram program);
   shared::Counters visibility_counted(const FrameInputs& in, Visibility& out, const Pass& pass);
 
   IzbLists read_lists() const;
@@ -65,6 +67,7 @@ class Izb final : public Technique {
   IzbSettings settings_, built_;  ///< as the options say; as the programs and textures were made
   int width_px_ = 0, height_px_ = 0;
   IzbPrograms programs_;
+  HardwareRaster hardware_;
   gpu::Texture heads_;     ///< light-space grids of head pointers, one a cascade
   gpu::Texture nodes_;     ///< screen-space grid of nodes, or the pool of exact insertion
   gpu::Texture furthest_;  ///< bits of the furthest node's depth

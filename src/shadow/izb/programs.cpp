@@ -7,6 +7,21 @@
 
 namespace izb {
 
+namespace {
+
+bool belongs(IzbProgram program, const IzbSettings& settings) {
+  if (program == IzbProgram::count_nodes) return settings.pool();
+  if (program >= IzbProgram::hardware && program <= IzbProgram::hardware_counted) return settings.hardware();
+  return true;
+}
+
+bool counts(IzbProgram program) {
+  return program == IzbProgram::visibility_counted || program == IzbProgram::visibility_counted_all ||
+         program == IzbProgram::hardware_counted;
+}
+
+}  // namespace
+
 gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, LightKind light) {
   const std::string folder = "shadow/izb/";
   gpu::Defines defines;
@@ -20,17 +35,30 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
     define(s.table(), "TABLE");
     define(s.pool(), "POOL");
   };
-  const auto visibility = [&](bool pyramid, const char* variant) -> gpu::ProgramSpec {
+  const auto fragment_defines = [&](const char* variant) {
     walk_defines();
-    define(pyramid, "PYRAMID");
     define(s.removal, "REMOVAL");
     define(s.unchanged_skip, "SKIP");
     define(s.pipelining, "PIPELINE");
     if (s.cascades > 1) defines["CASCADES"] = std::to_string(s.layers_a_pass());
     if (*variant) defines[variant] = "1";
+  };
+  const auto visibility = [&](bool pyramid, const char* variant) -> gpu::ProgramSpec {
+    fragment_defines(variant);
+    define(pyramid, "PYRAMID");
+    define(s.hardware(), "REST");
     return {fmt::format("izb visibility {}", variant),
             {folder + "5_visibility.vert.glsl", folder + "5_visibility.geom.glsl", folder + "5_visibility.frag.glsl"},
             defines};
+  };
+  const auto hardware = [&](const char* variant) -> gpu::ProgramSpec {
+    fragment_defines(variant);
+    define(true, "HW");
+    return {
+        fmt::format("izb visibility hw {}", variant),
+        {folder + "5_visibility.vert.glsl", folder + "5_visibility_hw.geom.glsl", folder + "5_visibility.frag.glsl"},
+        defines,
+        {"GL_NV_geometry_shader_passthrough"}};
   };
   const auto build = [&](bool count) -> gpu::ProgramSpec {
     light_defines();
@@ -65,6 +93,12 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
       return visibility(s.pyramid(), "COUNT");
     case IzbProgram::visibility_counted_all:
       return visibility(false, "COUNT");
+    case IzbProgram::hardware:
+      return hardware("");
+    case IzbProgram::hardware_in_double:
+      return hardware("IN_DOUBLE");
+    case IzbProgram::hardware_counted:
+      return hardware("COUNT");
     case IzbProgram::settle:
       walk_defines();
       return {"izb visibility settle", {folder + "5_visibility_settle.comp.glsl"}, defines};
@@ -80,7 +114,7 @@ std::vector<gpu::ProgramSpec> izb_program_specs() {
   const auto add = [&](const IzbSettings& settings) {
     for (int p = 0; p < static_cast<int>(IzbProgram::count); ++p) {
       const IzbProgram program = static_cast<IzbProgram>(p);
-      if (program == IzbProgram::count_nodes && !settings.pool()) continue;
+      if (!belongs(program, settings)) continue;
       for (const LightKind light : {LightKind::directional, LightKind::positional}) {
         gpu::ProgramSpec spec = izb_program_spec(program, settings, light);
         const bool known = std::any_of(all.begin(), all.end(), [&](const gpu::ProgramSpec& other) {
@@ -94,6 +128,8 @@ std::vector<gpu::ProgramSpec> izb_program_specs() {
   for (const std::string& preset : IzbSettings::preset_names()) {
     IzbSettings settings;
     settings.apply(preset);
+    add(settings);
+    settings.raster = "hw";
     add(settings);
   }
   IzbSettings settings;
@@ -121,10 +157,7 @@ IzbPrograms::IzbPrograms(const IzbSettings& settings) : settings_(settings) {
 void IzbPrograms::prepare(LightKind light) {
   light_ = light;
   for (int p = 0; p < static_cast<int>(IzbProgram::count); ++p)
-    if (const IzbProgram each = static_cast<IzbProgram>(p); each != IzbProgram::visibility_counted &&
-                                                            each != IzbProgram::visibility_counted_all &&
-                                                            (each != IzbProgram::count_nodes || settings_.pool()))
-      (*this)[each];
+    if (const IzbProgram each = static_cast<IzbProgram>(p); belongs(each, settings_) && !counts(each)) (*this)[each];
 }
 
 const gpu::Program& IzbPrograms::operator[](IzbProgram program) {

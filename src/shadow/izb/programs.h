@@ -19,6 +19,9 @@ enum class IzbProgram {
   visibility_in_double,
   visibility_counted,
   visibility_counted_all,
+  hardware,  ///< of --raster hw, before the one of the same variant above
+  hardware_in_double,
+  hardware_counted,
   settle,
   overflow,
   count

@@ -20,6 +20,9 @@ OptionSet IzbSettings::options() {
   set.integer("nodes", nodes, 1, 8, "nodes", "at most so many a pixel, but for exact insertion (6.1)");
   set.number("dilation", dilation_texels, 0.5, 4.0, "texels",
              "by which triangles grow in light space (6.1); exact insertion needs and takes 0.5");
+  set.choice("raster", raster, {"gs", "hw"},
+             "dilate triangles in a geometry shader, or by the hardware's conservative rasteriser and a pass-through "
+             "geometry shader, which NVIDIA GPUs have since GM204 (7)");
   set.integer("grid", grid, 16, 16384, "texels", "side of the light-space grid of lists (6.3)");
   set.integer("cascades", cascades, 1, 8, "cascades", "grids, by a logarithmic split of the visible depth range (6.4)");
   set.choice("cascade-pass", cascade_pass, {"single", "multiple"},

@@ -30,6 +30,7 @@ struct IzbSettings {
   bool many_samples() const { return sampling.spp != "1"; }
   bool table() const { return many_samples() && coverage == "lut"; }
   bool pool() const { return many_samples() && insertion == "exact"; }
+  bool hardware() const { return raster == "hw"; }
   bool pyramid() const { return zcull && zcull_pyramid; }
   int table_side() const { return std::stoi(lut); }
   /// Slots of a pixel in the grid of nodes.
