@@ -177,10 +177,11 @@ TEST(Izb, HardwareRasterWritesTheMaskOfTheGeometryShader) {
   for (uint32_t seed = 0; seed < 6; ++seed) {
     const Scene scene = tangled_scene(70 + seed, 300, seed % 2 ? 1e4 : 1.0);
     for (const Light& light : lights())
-      for (const Settings& settings : {Settings{{"grid", "512"}},
-                                       {{"grid", "512"}, {"zcull", "off"}},
-                                       {{"grid", "512"}, {"pairs", "0"}},
-                                       {{"grid", "256"}, {"spp", "32"}, {"insertion", "exact"}, {"cascades", "4"}}}) {
+      for (const Settings& settings :
+           {Settings{{"grid", "512"}},
+            {{"grid", "512"}, {"zcull", "off"}},
+            {{"grid", "512"}, {"pairs", "0"}},
+            {{"grid", "256"}, {"spp", "32"}, {"coverage", "exact"}, {"insertion", "exact"}, {"cascades", "4"}}}) {
         const Frame ours = render_frame(scene, camera, light, width_px, height_px, with(settings, {{"raster", "hw"}}));
         const Frame theirs = render_frame(scene, camera, light, width_px, height_px, settings);
         EXPECT_EQ(different(ours.mask, theirs.mask), 0u) << "seed " << seed << " light " << int(light.type);
