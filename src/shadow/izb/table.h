@@ -8,8 +8,8 @@
 
 namespace izb {
 
-/// side directions and side + 2 offsets; see glsl/shared/table.h. Bit s of an entry: sample s lies on or above the line at the entry's
-/// centre.
+/// side directions and side + 2 offsets; see glsl/shared/table.h. Bit s of an entry: sample s lies on or above the line
+/// at the entry's centre.
 std::vector<uint32_t> make_visibility_table(const SamplePattern& samples, int side);
 
 }  // namespace izb
