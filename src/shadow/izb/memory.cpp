@@ -5,6 +5,7 @@
 #include "shadow/izb/izb.h"
 #include "shared/lists.h"
 #include "shared/pyramid.h"
+#include "shared/table.h"
 
 namespace izb {
 namespace {
@@ -41,7 +42,8 @@ gpu::Plan Izb::memory_needed(int width_px, int height_px) const {
     plan.push_back(gpu::planned_buffer(part, kind, bytes, std::move(reduce)));
   };
   if (s.table())
-    buffer("table", Kind::buffer_texture, sizeof(uint32_t) * uint64_t(s.table_side()) * uint64_t(s.table_side()));
+    buffer("table", Kind::buffer_texture,
+           sizeof(uint32_t) * uint64_t(s.table_side()) * uint64_t(shared::table_columns(s.table_side())));
   buffer("pairs", Kind::storage_buffer, sizeof(shared::UnsurePair) * static_cast<uint64_t>(s.pair_capacity),
          {"--pairs"});
   buffer("pairs", Kind::storage_buffer, sizeof(shared::Counters));
