@@ -78,6 +78,13 @@ double depth_at(const shared::Footprint& f, const glm::dvec2& p) {
   return (f.p0.z * side(b, c, p) + f.p1.z * side(c, a, p) + f.p2.z * side(a, b, p)) / area;
 }
 
+/// A third are needles, 10^thinness times the size wide.
+void random_corners(Random& random, const glm::dvec3& center, double size, double thinness, glm::dvec3 (&corner)[3]) {
+  for (glm::dvec3& v : corner) v = center + random.point(size);
+  if (random.below(3) == 0)
+    corner[2] = glm::mix(corner[0], corner[1], random.uniform(0, 1)) + random.point(size * std::pow(10.0, thinness));
+}
+
 void check(uint32_t seed, bool positional) {
   Random random(seed);
   int covered = 0, triangles = 0, wrong = 0, behind = 0;
@@ -86,11 +93,8 @@ void check(uint32_t seed, bool positional) {
     const Setting s = random_setting(random, positional, reach);
     if (s.window.guard.y == 0.0f) continue;
     const double size = reach * std::pow(10.0, random.uniform(-4.0, random.below(10) ? 0.3 : 4.0));
-    const glm::dvec3 center = random.point(reach);
     glm::dvec3 corner[3];
-    for (glm::dvec3& v : corner) v = center + random.point(size);
-    if (random.below(3) == 0)
-      corner[2] = glm::mix(corner[0], corner[1], random.uniform(0, 1)) + random.point(size * 1e-4);
+    random_corners(random, random.point(reach), size, -4.0, corner);
     const glm::vec3 a(corner[0]), b(corner[1]), c(corner[2]);
     const shared::Footprint f = shared::make_footprint(s.light, s.window, a, b, c, 0.5f);
     ++triangles;
@@ -181,10 +185,7 @@ void check_hardware(uint32_t seed, bool positional) {
     const double size = reach * std::pow(10.0, random.uniform(-4.0, random.below(10) ? 0.3 : 2.0));
     const glm::dvec3 center = random.point(reach);
     glm::dvec3 corner[3];
-    for (glm::dvec3& v : corner) v = center + random.point(size);
-    if (random.below(3) == 0)
-      corner[2] = glm::mix(corner[0], corner[1], random.uniform(0, 1)) +
-                  random.point(size * std::pow(10.0, random.uniform(-3.0, 0.0)));
+    random_corners(random, center, size, random.uniform(-3.0, 0.0), corner);
     if (random.below(4) == 0) {  // facing the light: no slope hides an error of the depth
       const glm::dvec3 z = glm::vec3(s.light.axis_z);
       for (glm::dvec3& v : corner) v -= z * glm::dot(z, v - center);

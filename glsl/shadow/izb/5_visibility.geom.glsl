@@ -2,13 +2,11 @@
 // 5.5 Conservative rasterisation by dilation: the triangle's footprint on the light-space grid, with its vertices for the
 // test in the fragment shader. CASCADES: into the layers [first, end) of `cascades`, at most CASCADES of them (6.4).
 // REST: only what 5_visibility_hw.geom.glsl leaves.
-#include "shared/bindings.h"
-#include "shared/footprint.h"
-#include "shared/pairs.h"
-#include "shared/pyramid.h"
-#include "shadow/izb/vertices.glsl"
-
 layout(triangles) in;
+#include "shadow/izb/vertices.glsl"
+#include "shared/footprint.h"
+#include "shared/pyramid.h"
+
 #ifdef CASCADES
 layout(triangle_strip, max_vertices = 4 * CASCADES) out;
 layout(location = 2) uniform ivec2 cascades;
@@ -23,18 +21,7 @@ layout(location = 3) uniform float hardware_square;  // half the side, texels
 layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
 layout(std140, binding = BIND_WINDOWS) uniform WindowBlock { LightWindow windows[max_cascades]; };
 
-layout(location = 0) in vec3 v_position_vs[];
-layout(location = 1) flat in uint v_instance[];
-
-layout(location = 0) flat out vec3 g_a;
-layout(location = 1) flat out vec3 g_b;
-layout(location = 2) flat out vec3 g_c;
 layout(location = 3) flat out vec4 g_box;
-layout(location = 4) flat out uvec2 g_id;
-
-#ifdef COUNT
-layout(std430, binding = BIND_COUNTERS) buffer CounterBlock { Counters counters; };
-#endif
 #ifdef PYRAMID
 layout(binding = UNIT_PYRAMID) uniform usampler2DArray pyramid;
 

@@ -2,30 +2,14 @@
 #extension GL_NV_geometry_shader_passthrough : require
 // 5.5 Hardware conservative rasterisation (7): positions pass through, the vertices for the test go along once a triangle.
 // CASCADES: into the first layer of `cascades`, since such a shader makes one triangle of one.
-#include "shared/bindings.h"
-#include "shared/light.h"
-#include "shared/pairs.h"
-#include "shadow/izb/vertices.glsl"
-
 layout(triangles) in;
 layout(passthrough) in gl_PerVertex { vec4 gl_Position; } gl_in[];
+#include "shadow/izb/vertices.glsl"
 #ifdef CASCADES
 layout(location = 2) uniform ivec2 cascades;
 #endif
 
 layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
-
-layout(location = 0) in vec3 v_position_vs[];
-layout(location = 1) flat in uint v_instance[];
-
-layout(location = 0) flat out vec3 g_a;
-layout(location = 1) flat out vec3 g_b;
-layout(location = 2) flat out vec3 g_c;
-layout(location = 4) flat out uvec2 g_id;
-
-#ifdef COUNT
-layout(std430, binding = BIND_COUNTERS) buffer CounterBlock { Counters counters; };
-#endif
 
 void main() {
   vec3 a = v_position_vs[0], b = v_position_vs[1], c = v_position_vs[2];

@@ -1,5 +1,19 @@
-// A triangle's vertices by position: two triangles that share an edge then give the same numbers for it.
+// What a geometry shader gets of a triangle and hands to the test, after `layout(triangles) in`.
+#include "shared/bindings.h"
 #include "shared/occlusion.h"
+#include "shared/pairs.h"
+
+layout(location = 0) in vec3 v_position_vs[];
+layout(location = 1) flat in uint v_instance[];
+
+layout(location = 0) flat out vec3 g_a;
+layout(location = 1) flat out vec3 g_b;
+layout(location = 2) flat out vec3 g_c;
+layout(location = 4) flat out uvec2 g_id;
+
+#ifdef COUNT
+layout(std430, binding = BIND_COUNTERS) buffer CounterBlock { Counters counters; };
+#endif
 
 void order(inout vec3 first, inout vec3 second) {
   bool swapped = position_less(second, first);
@@ -8,6 +22,7 @@ void order(inout vec3 first, inout vec3 second) {
   second = swapped ? kept : second;
 }
 
+// The vertices by position: two triangles that share an edge then give the same numbers for it.
 void order_vertices(inout vec3 a, inout vec3 b, inout vec3 c) {
   order(a, b);
   order(b, c);
