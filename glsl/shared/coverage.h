@@ -114,6 +114,20 @@ SHARED bool occluded_sample(IN(QuadPlanes) t, IN(vec2) o) {
 // fx = f0 slope - n.along, and with f0 = n.first - n.center the terms in n.center cancel: fx = tilt n.first - n.x width, where an
 // orthographic camera has n.z in place of n.first. So a line takes one product with the receiver and three floats of it.
 
+SHARED void order_two(OUT(vec3) first, OUT(vec3) second) {
+  bool swapped = position_less(second, first);
+  vec3 kept = first;
+  first = swapped ? second : first;
+  second = swapped ? kept : second;
+}
+
+// By position: two triangles that share an edge then give the same numbers for it.
+SHARED void order_vertices(OUT(vec3) a, OUT(vec3) b, OUT(vec3) c) {
+  order_two(a, b);
+  order_two(b, c);
+  order_two(a, b);
+}
+
 // An edge's plane, by vertices in the order of their positions: what both triangles of a shared edge compute alike.
 struct EdgePlane {
   vec3 first;

@@ -3,6 +3,7 @@
 // insertion.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "reference/exact.h"
@@ -84,6 +85,31 @@ TEST(SharedTable, OppositeLinesHaveComplementaryBits) {
     const int here = shared::table_entry(line, 64), there = shared::table_entry(-line, 64);
     const glm::vec3 a = shared::table_line(here, 64), b = shared::table_line(there, 64);
     ASSERT_LT(glm::length(a + b), 1e-5f);
+  }
+}
+
+TEST(SharedCoverage, TrianglesThatShareAnEdgeGetOneLine) {
+  Random random(92);
+  const glm::dvec3 lamp(1.0, 8.0, -3.0);
+  const shared::CameraFrame camera = perspective_camera();
+  for (int i = 0; i < 2000; ++i) {
+    const shared::LightFrame light = make_light(random.direction(), i % 2 ? &lamp : nullptr);
+    const glm::vec3 shared_edge[] = {glm::vec3(random.point(5.0)), glm::vec3(random.point(5.0))};
+    // The edge's planes in two triangles that name its ends in opposite orders.
+    std::vector<shared::EdgePlane> planes;
+    for (int k = 0; k < 2; ++k) {
+      glm::vec3 v[] = {shared_edge[k], shared_edge[1 - k], glm::vec3(random.point(5.0))};
+      std::rotate(v, v + random.below(3), v + 3);
+      shared::order_vertices(v[0], v[1], v[2]);
+      const shared::QuadTriangle t = shared::make_quad_triangle(camera, light, v[0], v[1], v[2]);
+      const auto is_shared = [&](const glm::vec3& a, const glm::vec3& b) {
+        return (a == shared_edge[0] && b == shared_edge[1]) || (a == shared_edge[1] && b == shared_edge[0]);
+      };
+      planes.push_back(is_shared(v[0], v[1]) ? t.edge0 : is_shared(v[1], v[2]) ? t.edge1 : t.edge2);
+    }
+    ASSERT_EQ(planes[0].first, planes[1].first);
+    ASSERT_EQ(planes[0].normal, planes[1].normal);
+    ASSERT_EQ(planes[0].turned, planes[1].turned);
   }
 }
 

@@ -4,6 +4,7 @@
 // REST: only what 5_visibility_hw.geom.glsl leaves.
 layout(triangles) in;
 #include "shadow/izb/vertices.glsl"
+#include "shared/coverage.h"
 #include "shared/footprint.h"
 #include "shared/pyramid.h"
 

@@ -5,6 +5,7 @@
 layout(triangles) in;
 layout(passthrough) in gl_PerVertex { vec4 gl_Position; } gl_in[];
 #include "shadow/izb/vertices.glsl"
+#include "shared/coverage.h"
 #ifdef CASCADES
 layout(location = 2) uniform ivec2 cascades;
 #endif

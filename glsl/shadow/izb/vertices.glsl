@@ -1,6 +1,5 @@
 // What a geometry shader gets of a triangle and hands to the test, after `layout(triangles) in`.
 #include "shared/bindings.h"
-#include "shared/occlusion.h"
 #include "shared/pairs.h"
 
 layout(location = 0) in vec3 v_position_vs[];
@@ -14,17 +13,3 @@ layout(location = 4) flat out uvec2 g_id;
 #ifdef COUNT
 layout(std430, binding = BIND_COUNTERS) buffer CounterBlock { Counters counters; };
 #endif
-
-void order(inout vec3 first, inout vec3 second) {
-  bool swapped = position_less(second, first);
-  vec3 kept = first;
-  first = swapped ? second : first;
-  second = swapped ? kept : second;
-}
-
-// The vertices by position: two triangles that share an edge then give the same numbers for it.
-void order_vertices(inout vec3 a, inout vec3 b, inout vec3 c) {
-  order(a, b);
-  order(b, c);
-  order(a, b);
-}
