@@ -10,8 +10,9 @@ usage: IZB_SCENES=FOLDER bench/peer.sh [NAME...]
 
 Renders each scene of the folder (or those named, without .glb or .gltf) at 1920x1080 from the viewpoint of its name in
 bench/views.json and prints the times of bounds, build, zcull and visibility, Embree's fastest rebuild plus one ray a
-receiver, and the ratio; at the end the median over the scenes between 100,000 and 1,000,000 triangles.
+sample, and the ratio; at the end the median over the scenes between 100,000 and 1,000,000 triangles.
 
+  SPP=N     samples a pixel, 1 or 32 (default 32)
   REPEAT=N  frames a scene (default 5)
   OUT=DIR   where the JSON of each scene stays (default out/peer)
 TEXT
@@ -78,7 +79,7 @@ echo "|---|---|---|---|---|---|---|---|---|"
 for file in "${scenes[@]}"; do
   name=$(basename "${file%.*}")
   json=$out/$name.json
-  if build/release/izb render "$file" --viewpoint "$name" --size 1920x1080 --repeat "${REPEAT:-5}" --peer on \
+  if build/release/izb render "$file" --viewpoint "$name" --size 1920x1080 --spp "${SPP:-32}" --repeat "${REPEAT:-5}" --peer on \
     --json "$json" >"$out/$name.log"; then
     row "$json" "$name"
   else

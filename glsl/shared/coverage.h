@@ -13,12 +13,11 @@
 #include "shared/occlusion.h"
 SHARED_BEGIN
 
-// As plane_bias, for points up to twice as far away. Outside its own triangle a plane is uncertain by the rounding of the
-// vertices times the overhang.
-SHARED float quad_bias(IN(CameraFrame) camera, IN(vec3) p, float t, float vertex_norm1, float overhang) {
-  PRECISE float rounding = 8.0f * unit_roundoff * ((2.0f + overhang) * norm1(p) + vertex_norm1);
+// As plane_bias, for the points of a micro-quad: see docs/VALIDATION.md.
+SHARED float quad_bias(IN(CameraFrame) camera, IN(vec3) p, float t, float vertex_norm1, float doubt) {
+  PRECISE float rounding = unit_roundoff * (doubt * norm1(p) + 1.25f * vertex_norm1);
   PRECISE float limit = pixel_width(camera, t) * 0.0078125f;
-  PRECISE float own = 8.0f * unit_roundoff * norm1(p);
+  PRECISE float own = 6.0f * unit_roundoff * norm1(p);
   return min(rounding, max(limit, own));
 }
 
@@ -90,7 +89,7 @@ SHARED QuadPlanes quad_planes(IN(CameraFrame) camera, IN(LightFrame) light, IN(v
   planes.height = quad_plane(n * sign, dvec3(a) - dvec3(p), along_x, along_y, slope);
   PRECISE double length2 = (n.x * n.x + n.y * n.y) + n.z * n.z;
   planes.length2 = length2;
-  double bias = double(quad_bias(camera, p, data.x, max_norm1(a, b, c), overhang_of(data)));
+  double bias = double(quad_bias(camera, p, data.x, max_norm1(a, b, c), doubt_of(camera, data)));
   planes.bias = dvec3(bias, bias * slope.x, bias * slope.y);
   return planes;
 }

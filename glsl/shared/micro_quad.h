@@ -21,7 +21,7 @@ struct MicroQuad {
   vec2 tilt;       // slopes of the G-buffer: n.along = n.width - tilt n.turn, with turn = center or, orthographic, z
   float extent;    // bounds |along_x|_1 + |along_y|_1 and, times 4u, their errors
   float t;         // eye distance of the center
-  float overhang;  // overhang_of
+  float doubt;     // doubt_of
 };
 
 // In the G-buffer: x: eye distance; yz: slopes of 1/t as a share of 1/t (perspective) or of t (orthographic), a pixel,
@@ -31,11 +31,21 @@ struct MicroQuad {
 // [1/2, 2] of the centre's. In double: near the horizon the slopes magnify each error.
 SHARED float scale_of(IN(vec4) data) { return uintBitsToFloat(floatBitsToUint(data.w) & ~31u); }
 
-// 0, or half the micro-quad's size over its own triangle's height where that is more than 4, rounded up to a power of two:
-// so far outside its triangle a plane is uncertain.
+const int least_overhang = -4;  // as a power of two
+
+// Half the micro-quad's size over its own triangle's height, rounded up to a power of two: so far outside its triangle a plane
+// is uncertain.
 SHARED float overhang_of(IN(vec4) data) {
-  uint power = floatBitsToUint(data.w) & 31u;
-  return power == 0u ? 0.0f : uintBitsToFloat((127u + power) << 23);
+  return uintBitsToFloat((uint(127 + least_overhang) + (floatBitsToUint(data.w) & 31u)) << 23);
+}
+
+// How far a point of the micro-quad may lie off its triangle's plane, in roundings of |P|_1: 2 for the centre, 4 times the
+// steepness for the slopes and for a t of up to twice the centre's, and the vertices' own rounding, which grows outside.
+SHARED float doubt_of(IN(CameraFrame) camera, IN(vec4) data) {
+  PRECISE float change = abs(data.y) + abs(data.z);
+  PRECISE float steepness = is_perspective(camera) ? change : change / data.x;
+  PRECISE float doubt = 3.0f + 2.0f * overhang_of(data) + 4.0f * steepness;
+  return doubt;
 }
 
 SHARED vec4 micro_quad_data(IN(CameraFrame) camera, IN(vec2) px, float t, IN(vec3) a, IN(vec3) b, IN(vec3) c) {
@@ -61,9 +71,10 @@ SHARED vec4 micro_quad_data(IN(CameraFrame) camera, IN(vec2) px, float t, IN(vec
   double half_y = 0.5 * scale * sqrt(ay * ay * size * size + sy * sy * size * size);
   double longest2 = max(dot(e1, e1), max(dot(e2, e2), dot(e3, e3)));
   double overhang = (half_x + half_y) * sqrt(longest2 / dot(n, n));
-  uint power = 0u;
-  for (double reached = 4.0; reached < overhang && power < 24u; reached *= 2.0) power = max(power + 1u, 3u);
-  float word = uintBitsToFloat((floatBitsToUint(float(scale)) & ~31u) | power);
+  // The exponent, rounded up; infinity where there is no triangle to speak of.
+  int power = int((floatBitsToUint(float(overhang)) + 0x7fffffu) >> 23) - 127 - least_overhang;
+  uint bits = uint(clamp(power, 0, 31));
+  float word = uintBitsToFloat((floatBitsToUint(float(scale)) & ~31u) | bits);
   double kept = double(scale_of(vec4(0.0f, 0.0f, 0.0f, word)));
   return vec4(t, float(sx * kept), float(sy * kept), word);
 }
@@ -72,7 +83,7 @@ SHARED MicroQuad make_micro_quad(IN(CameraFrame) camera, IN(ivec2) px, IN(vec4) 
   MicroQuad m;
   float k = scale_of(data);
   m.t = data.x;
-  m.overhang = overhang_of(data);
+  m.doubt = doubt_of(camera, data);
   m.center = receiver_point(camera, vec2(float(px.x) + 0.5f, float(px.y) + 0.5f), data.x);
   bool perspective = is_perspective(camera);
   float width = perspective ? k * data.x : k;

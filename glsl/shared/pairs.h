@@ -13,7 +13,11 @@ struct Counters {
   uint triangles;         // triangles that the geometry shader let through (counting variant only)
   uint removed;           // nodes of fully shadowed pixels that were unlinked (counting variant only)
   uint unchanged;         // masks that already had the bits (counting variant only)
+  uint unfinished;        // not 0: the driver ended the walk over a list before its end
   uint carries;           // times that fragments (low 16 bits) and visibility_tests (high) have passed 32 bits
+  uint unused0;
+  uint unused1;
+  uint unused2;
 };
 
 struct UnsurePair {

@@ -41,11 +41,11 @@ reference::MaskTwins render_twins(Session& session, Technique& technique) {
   const OptionSet set = technique.options();
   std::vector<std::optional<std::string>> asked;
   for (const char* name : approximations) asked.push_back(value_of(set, name));
-  std::vector<std::vector<uint32_t>> masks{read_mask(session.renderer.mask())};
+  std::vector<std::vector<uint32_t>> masks{session.renderer.read_mask()};
   for (const char* name : approximations) {
     set_value(set, name, "exact");
     render_again(session, technique);
-    masks.push_back(read_mask(session.renderer.mask()));
+    masks.push_back(session.renderer.read_mask());
   }
   for (size_t i = 0; i < asked.size(); ++i) set_value(set, approximations[i], asked[i]);
   render_again(session, technique);

@@ -96,7 +96,7 @@ int render(RenderOptions& o) {
 
   nlohmann::json json = provenance(s, o.frame, *s.technique, o.arguments, o.scene);
   json["options"].update(o.options().to_json());
-  const std::vector<uint32_t> mask = read_mask(s.renderer.mask());
+  const std::vector<uint32_t> mask = s.renderer.read_mask();
   json["mask_hash"] = mask_hash(mask);
   json["stages"] = stages_json(s.timers);
   json["frame_ms"] = median(timed.frame_ms);

@@ -80,7 +80,7 @@ std::string mask_hash(const std::vector<uint32_t>& mask) {
 Image frame_image(const Session& session, const Technique& technique, const nlohmann::json& facts) {
   const FrameInputs& in = session.renderer.inputs();
   const GBufferImage gbuffer = read_gbuffer(*in.gbuffer);
-  const std::vector<uint32_t> mask = read_mask(session.renderer.mask());
+  const std::vector<uint32_t> mask = session.renderer.read_mask();
   Image image;
   image.width_px = in.width_px;
   image.height_px = in.height_px;

@@ -11,7 +11,7 @@ namespace {
 Counts receiver_counts(const Renderer& renderer) {
   const FrameInputs& in = renderer.inputs();
   const GBufferImage gbuffer = read_gbuffer(*in.gbuffer);
-  const std::vector<uint32_t> mask = read_mask(renderer.mask());
+  const std::vector<uint32_t> mask = renderer.read_mask();
   uint64_t receivers = 0, fully_shadowed = 0;
   for (size_t i = 0; i < mask.size(); ++i) {
     if (pixel_class(gbuffer, in.camera, in.light, i) != shared::class_receiver) continue;

@@ -72,7 +72,7 @@ SceneReport validate_scene(const ValidateOptions& o, const std::string& scene_pa
   Session s(frame, another(*o.technique), scene_path);
   s.renderer.render(s.frame.camera, s.frame.light, s.timers);
   s.timers.collect();
-  const std::vector<uint32_t> asked = read_mask(s.renderer.mask());
+  const std::vector<uint32_t> asked = s.renderer.read_mask();
   const nlohmann::json memory = memory_json(s.renderer);
   std::optional<reference::MaskTwins> twins;
   if (approximates(*s.technique)) twins = render_twins(s, *s.technique);

@@ -2,6 +2,7 @@
 #include "shadow/renderer.h"
 
 #include "base/error.h"
+#include "frame/read_back.h"
 #include "shared/bindings.h"
 #include "shared/lists.h"
 
@@ -76,6 +77,12 @@ void Renderer::render(const Camera& camera, const Light& light, gpu::StageTimers
   bounds_.render(timers);
   technique_->render(inputs_, visibility_, timers);
   shade_.render(visibility_.mask, timers);
+}
+
+std::vector<uint32_t> Renderer::read_mask() const {
+  if (const std::string fault = technique_->fault(); !fault.empty())
+    fail("technique '{}': {}", technique_->info().name, fault);
+  return izb::read_mask(visibility_.mask);
 }
 
 Counts Renderer::count() {

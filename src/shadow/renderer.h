@@ -26,6 +26,8 @@ class Renderer {
 
   const FrameInputs& inputs() const { return inputs_; }  ///< of the last frame
   const gpu::Texture& mask() const { return visibility_.mask; }
+  /// The words of the last frame's mask, top row first. Throws izb::Error where the technique says that they are wrong.
+  std::vector<uint32_t> read_mask() const;
   const gpu::Texture& picture() const { return shade_.picture(); }
   const BoundsStage& bounds() const { return bounds_; }
   const SceneBuffers& scene_buffers() const { return buffers_; }

@@ -48,6 +48,8 @@ class Technique {
   virtual void resize(int width_px, int height_px) = 0;
   /// Fills `out.mask`. Uniform blocks of camera and light, and the light's window, are bound.
   virtual void render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) = 0;
+  /// Why the frame just rendered is not what it should be: one sentence, or empty.
+  virtual std::string fault() const { return {}; }
   /// Renders once more with counting on; out.mask is as after render().
   virtual Counts count(const FrameInputs& in, Visibility& out) = 0;
   /// GPU memory of its own, by name, in bytes; the mask is the frame's.

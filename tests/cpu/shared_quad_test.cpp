@@ -185,8 +185,8 @@ TEST(SharedCoverage, IsTheExactPredicateAtEachSampleButForTheBias) {
       inside += ours;
       if (ours == reference::occluded_exact(at, {a, b, c}, point)) continue;
       // The float micro-quad here is off by some 1e-7 of its size; and the plane is biased.
-      const double slack = 1e-5 * pixel + 2.0 * shared::quad_bias(camera, quad.center, quad.t,
-                                                                  shared::max_norm1(a, b, c), quad.overhang);
+      const double slack =
+          1e-5 * pixel + 2.0 * shared::quad_bias(camera, quad.center, quad.t, shared::max_norm1(a, b, c), quad.doubt);
       bool changes = std::abs(reference::plane_distance(at, {a, b, c}, point)) < slack;
       for (int k = 0; k < 64 && !changes; ++k)
         changes = reference::occluded_exact(at + random.direction() * slack, {a, b, c}, point) == ours;

@@ -1,77 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The bars at their stated sizes on real scenes: every .glb and .gltf file of the folder that $IZB_SCENES
-// names, from the viewpoint of its name in bench/views.json. Prints its numbers; the small tests check the
+// The bars of one sample a pixel at their stated sizes on real scenes. Prints its numbers; the small tests check the
 // same in minutes.
-#include <gtest/gtest.h>
+#include "full/bars.h"
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-
-#include "cli/run_program.h"
-#include "cpu/gltf_writer.h"
-
+namespace izb::test {
 namespace {
-
-namespace fs = std::filesystem;
-using izb::test::Outcome;
-using izb::test::run_program;
-using izb::test::RunOptions;
-
-constexpr const char* full_hd = "1920x1080";
-const fs::path views = IZB_SOURCE_DIR "/bench/views.json";
-
-nlohmann::json read_json(const fs::path& path) {
-  return nlohmann::json::parse(std::ifstream(path));
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const size_t n = values.size();
-  return n == 0 ? 0.0 : 0.5 * (values[(n - 1) / 2] + values[n / 2]);
-}
-
-struct Bars : testing::Test {
-  const izb::test::TemporaryFolder folder;
-  std::vector<fs::path> scenes;
-
-  void SetUp() override {
-    const char* named = std::getenv("IZB_SCENES");
-    if (!named) GTEST_SKIP() << "IZB_SCENES is not set";
-    for (const auto& entry : fs::directory_iterator(named))
-      if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf") scenes.push_back(entry.path());
-    std::sort(scenes.begin(), scenes.end());
-    ASSERT_FALSE(scenes.empty()) << "no .glb or .gltf file in " << named;
-  }
-
-  /// Runs `izb COMMAND SCENE ...` on the scene's own view and returns its JSON.
-  nlohmann::json run(const char* command, const fs::path& scene, std::vector<std::string> more,
-                     const RunOptions& options = {}) const {
-    const fs::path json = folder / "out.json";
-    fs::remove(json);
-    std::vector<std::string> words{IZB_PROGRAM, command, scene, "--size", full_hd, "--json", json};
-    if (!fs::exists(views) || !read_json(views).contains(scene.stem().string())) {
-      ADD_FAILURE() << "no view '" << scene.stem().string() << "' in " << views;
-      return {};
-    }
-    const std::vector<std::string> view{"--views", views, "--viewpoint", scene.stem()};
-    words.insert(words.end(), view.begin(), view.end());
-    words.insert(words.end(), more.begin(), more.end());
-    // KHR_debug is on, but for the times.
-    RunOptions debug = options;
-    if (std::find(more.begin(), more.end(), "--peer") == more.end()) debug.environment["IZB_GL_DEBUG"] = "1";
-    const Outcome outcome = run_program(words, debug);
-    EXPECT_FALSE(outcome.says("warning: GL:")) << outcome.err;
-    EXPECT_EQ(outcome.code, 0) << testing::PrintToString(words) << "\n" << outcome.out << outcome.err;
-    return fs::exists(json) ? read_json(json) : nlohmann::json();
-  }
-};
 
 TEST_F(Bars, NothingUnexplained) {
   std::printf("%-8s %-28s %9s %9s %9s %9s %11s\n", "context", "scene", "compared", "shadowed", "disputed", "explained",
               "unexplained");
   for (const fs::path& scene : scenes)
     for (const char* context : {"egl", "osmesa"}) {
-      const nlohmann::json j = run("validate", scene, {"--context", context});
+      const nlohmann::json j = run("validate", scene, {"--spp", "1", "--context", context});
       if (j.is_null()) continue;
       const double compared = j["compared"], disputed = j["disputed"];
       std::printf("%-8s %-28s %9.0f %9d %9.0f %9d %11d\n", context, scene.stem().c_str(), compared,
@@ -96,15 +36,17 @@ TEST_F(Bars, SameMask) {
       {{}, {{{"LP_NUM_THREADS", "2"}}, false}},
   };
   for (const fs::path& scene : scenes) {
-    const nlohmann::json first = run("render", scene, {"--context", "egl"});
+    const nlohmann::json first = run("render", scene, {"--spp", "1", "--context", "egl"});
     if (first.is_null()) continue;
     const std::string hash = first.value("mask_hash", "none");
     std::printf("%-28s %s\n", scene.stem().c_str(), hash.c_str());
-    for (const auto& [words, options] : variants)
+    for (auto [words, options] : variants) {
+      words.insert(words.end(), {"--spp", "1"});
       EXPECT_EQ(run("render", scene, words, options).value("mask_hash", ""), hash)
           << scene << testing::PrintToString(words) << testing::PrintToString(options.environment);
+    }
     for (int again = 1; again < 10; ++again)
-      EXPECT_EQ(run("render", scene, {}).value("mask_hash", ""), hash) << scene << ", run " << again;
+      EXPECT_EQ(run("render", scene, {"--spp", "1"}).value("mask_hash", ""), hash) << scene << ", run " << again;
   }
 }
 
@@ -112,7 +54,7 @@ TEST_F(Bars, ZCullSaves) {
   std::vector<double> saved;
   std::printf("%-28s %12s %12s %7s\n", "scene", "fragments", "after z-cull", "saved");
   for (const fs::path& scene : scenes) {
-    const nlohmann::json j = run("render", scene, {});
+    const nlohmann::json j = run("render", scene, {"--spp", "1"});
     if (j.is_null()) continue;
     const nlohmann::json& counts = j["counts"];
     const double all = counts["fragments"], after = counts["fragments_after_zcull"];
@@ -129,15 +71,9 @@ TEST_F(Bars, Cost) {
   std::printf("%-28s %10s %9s %9s %9s %7s %9s %9s\n", "scene", "triangles", "frame ms", "shadow ms", "peer ms", "ratio",
               "IZB MB", "B a pixel");
   for (const fs::path& scene : scenes) {
-    const nlohmann::json j = run("render", scene, {"--repeat", "5", "--peer", "on"});
+    const nlohmann::json j = run("render", scene, {"--spp", "1", "--repeat", "5", "--peer", "on"});
     if (j.is_null()) continue;
-    double sum = 0.0, shadow = 0.0;
-    for (const auto& stage : j["stages"]) {
-      const std::string name = stage["name"];
-      const double ms = stage["gpu_ms"];
-      sum += ms;
-      if (name != "gbuffer" && name != "shade") shadow += ms;
-    }
+    const double sum = stages_ms(j, true), shadow = stages_ms(j);
     const double frame = j["frame_ms"], peer = j["peer"]["fastest_rebuild_plus_trace_ms"];
     const double izb_mb = j["memory_bytes"]["izb"].get<double>() * 1e-6;
     const double pixel_bytes = j["memory_bytes"]["gbuffer"].get<double>() / (1920.0 * 1080.0);
@@ -155,3 +91,4 @@ TEST_F(Bars, Cost) {
 }
 
 }  // namespace
+}  // namespace izb::test

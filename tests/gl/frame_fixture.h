@@ -98,7 +98,7 @@ inline Settings with(Settings settings, const Settings& more) {
 inline Frame render_frame(const Scene& scene, const Camera& camera, const Light& light, int width_px, int height_px,
                           const Settings& settings, Technique& technique) {
   const OptionSet options = technique.options();
-  for (const auto& [name, value] : settings) {
+  for (const auto& [name, value] : with({{"spp", "1"}}, settings)) {
     bool known = false;
     for (const Option& option : options.options())
       if (option.name == name) option.set(value), known = true;
@@ -109,7 +109,7 @@ inline Frame render_frame(const Scene& scene, const Camera& camera, const Light&
   gpu::StageTimers timers(true);
   renderer.render(camera, light, timers);
   Frame frame;
-  frame.mask = read_mask(renderer.mask());
+  frame.mask = renderer.read_mask();
   frame.inputs = renderer.inputs();
   for (int i = 0; i < technique.grid().cascades; ++i) frame.windows.push_back(renderer.bounds().read_window(i));
   frame.window = frame.windows[0];

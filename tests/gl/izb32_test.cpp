@@ -70,12 +70,41 @@ TEST(Izb32, TheExactMaskDependsOnNoOption) {
   const Scene scene = tangle(81, 300);
   const Settings variants[] = {
       {{"cascades", "8"}, {"cascade-pass", "multiple"}, {"grid", "256"}, {"zcull", "off"}},
-      {{"removal", "on"}, {"unchanged-skip", "on"}, {"pipelining", "on"}, {"cascades", "3"}, {"grid", "512"}}};
+      {{"removal", "on"}, {"unchanged-skip", "on"}, {"pipelining", "on"}, {"cascades", "3"}, {"grid", "512"}},
+      {{"pairs", "0"}}};
   const Frame base = render_frame(scene, camera, sun(130, 35), width_px, height_px, exact);
+  EXPECT_GT(base.count("pairs_in_double"), 500u);  // or `pairs` decides nothing
   for (const Settings& variant : variants) {
     const Frame other = render_frame(scene, camera, sun(130, 35), width_px, height_px, with(exact, variant));
     EXPECT_EQ(different(base.mask, other.mask), 0u) << variant[0].first << " " << variant[0].second;
   }
+}
+
+// llvmpipe ends all loops of an invocation after 65,535 rounds: none may be spent on samples.
+TEST(Izb32, AListOfThousandsIsWalkedToItsEnd) {
+  const Scene scene = tangle(81, 60);
+  const Settings one_list{{"grid", "16"}, {"zcull", "off"}};
+  const Frame frame = render_frame(scene, camera, sun(130, 35), 480, 360, with(exact, one_list));
+  EXPECT_GT(frame.count("longest_list"), 2500u);
+  const Frame fine = render_frame(scene, camera, sun(130, 35), 480, 360, with(exact, {{"grid", "512"}}));
+  EXPECT_LT(fine.count("longest_list"), 400u);
+  EXPECT_EQ(different(frame.mask, fine.mask), 0u);
+}
+
+TEST(Izb32, AListBeyondTheDriversLoopsIsANamedRefusal) {
+  if (!capabilities().software) GTEST_SKIP() << "other drivers' loops end by themselves";
+  Scene scene = empty_scene();
+  add_soup(scene, floor_of(0.2f));  // three quarters of the picture, and one texel of the grid
+  add_soup(scene, rectangle({-0.02f, 0.05f, -0.02f}, {0, 0, 0.04f}, {0.04f, 0, 0}));
+  add_soup(scene, rectangle({150, -300, -20}, {0, 0, 40}, {25, 0, 0}));
+  Camera above = look_at({0.0, 0.2, 0.0}, {0, 0, 0.0001}, glm::radians(60.0));
+  above.far_plane = 1000.0;
+  for (const char* spp : {"1", "32"}) try {
+      render_frame(scene, above, sun(10, 88), 360, 360, {{"grid", "16"}, {"spp", spp}});
+      ADD_FAILURE() << "no refusal";
+    } catch (const Error& e) {
+      EXPECT_NE(std::string(e.what()).find("longer than this driver's loops"), std::string::npos) << e.what();
+    }
 }
 
 TEST(Izb32, AMicroQuadThatTouchesTooManyTexelsIsANamedRefusal) {

@@ -89,7 +89,7 @@ TEST(Stages, ShadeIsPhongWithTheMask) {
   Scene scene = box_on_a_floor();
   scene.materials[0].base_color = {1.0f, 0.0f, 1.0f, 1.0f};  // exact in eight bits
   for (const Light& light : lights()) {
-    const Frame frame = render_frame(scene, camera, light, width_px, height_px);
+    const Frame frame = render_frame(scene, camera, light, width_px, height_px, {{"spp", "32"}});
     const std::unique_ptr<Technique> technique = make_technique("izb");
     Renderer renderer(scene, capabilities());
     renderer.prepare(*technique, width_px, height_px);

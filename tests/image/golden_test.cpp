@@ -17,19 +17,20 @@ namespace fs = std::filesystem;
 
 const fs::path golden_folder = IZB_SOURCE_DIR "/tests/image/golden";
 
-class Golden : public testing::TestWithParam<const char*> {};
+class Golden : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
 TEST_P(Golden, TheShippedSceneLooksAsItDid) {
-  const std::string camera = GetParam();
+  const std::string camera = std::get<0>(GetParam()), spp = std::get<1>(GetParam());
   const TemporaryFolder folder;
   const fs::path scene = folder / "garden.glb", exr = folder / "out.exr", json = folder / "out.json";
   ASSERT_EQ(izb({"scene", "garden", "-o", scene}).code, 0);
-  const Outcome outcome = izb({"render", scene, "--camera", camera, "--size", "240x135", "-o", exr, "--json", json});
+  const Outcome outcome =
+      izb({"render", scene, "--camera", camera, "--spp", spp, "--size", "240x135", "-o", exr, "--json", json});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const std::string renderer = nlohmann::json::parse(std::ifstream(json))["gl"]["renderer"];
   if (renderer.find("llvmpipe") == std::string::npos)
     GTEST_SKIP() << "the files come from llvmpipe; other rasterisers cover other pixels: " << renderer;
-  const fs::path golden = golden_folder / ("garden_" + camera + ".exr");
+  const fs::path golden = golden_folder / ("garden_" + camera + "_" + spp + ".exr");
   if (std::getenv("IZB_UPDATE_GOLDEN")) {
     Image small = read_exr(exr);
     small.attributes.clear();
@@ -50,7 +51,9 @@ TEST_P(Golden, TheShippedSceneLooksAsItDid) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Cameras, Golden, testing::Values("main", "wires", "grass", "contact"));
+INSTANTIATE_TEST_SUITE_P(Cameras, Golden,
+                         testing::Combine(testing::Values("main", "wires", "grass", "contact"),
+                                          testing::Values("1", "32")));
 
 }  // namespace
 }  // namespace izb::test

@@ -123,13 +123,15 @@ void main() {
   bool unsure = walk(eye, triangle, head_texel, w, px);
 #ifndef COUNT
   // Nearly all end here. A machine of lanes pays for a branch that nobody takes, but not for code after a discard of all.
-  if (!unsure) discard;
+  if (!unsure && w.node == no_node) discard;
 #endif
   while (unsure) {
     // A receiver's own triangle, the commonest of them, lies within the bias of its plane and never occludes it.
     if (texelFetch(id_texture, px, 0).xy != g_id) add_pair(px);
     unsure = walk(eye, triangle, head_texel, w, px);
   }
+  // llvmpipe ends all loops of an invocation after 65,535 rounds.
+  if (unsure || w.node != no_node) counters.unfinished = 1u;
 #ifdef COUNT
   if (atomicAdd(counters.fragments, 1u) == 0xffffffffu) atomicAdd(counters.carries, 1u);
   uint tests = atomicAdd(counters.visibility_tests, w.tests);

@@ -79,7 +79,7 @@ void spawn(vec3 a, vec3 b, vec3 c, int cascade) {
 
 void main() {
   vec3 a = v_position_vs[0], b = v_position_vs[1], c = v_position_vs[2];
-#if defined(SPP32) && !defined(IN_DOUBLE)
+#ifdef SPP32
   order_vertices(a, b, c);  // once a triangle
 #endif
 #ifdef CASCADES

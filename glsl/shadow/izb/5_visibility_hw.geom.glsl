@@ -18,7 +18,7 @@ void main() {
   bool left_out = a == b || b == c || c == a;
   if (is_positional(light))
     left_out = left_out || min(light_position(light, a).z, min(light_position(light, b).z, light_position(light, c).z)) <= 0.0;
-#if defined(SPP32) && !defined(IN_DOUBLE)
+#ifdef SPP32
   order_vertices(a, b, c);
 #endif
   g_a = a;

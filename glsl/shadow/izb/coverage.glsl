@@ -5,11 +5,17 @@
 
 layout(std140, binding = BIND_SAMPLES) uniform SampleBlock { SampleFrame samples; };
 
+// No loops: llvmpipe ends all loops of an invocation after 65,535 rounds, and the walk needs them.
+#define FOUR_SAMPLES(f, i) f(i) f(i + 1) f(i + 2) f(i + 3)
+#define FOR_ALL_SAMPLES(f)                                                                                      \
+  FOUR_SAMPLES(f, 0) FOUR_SAMPLES(f, 4) FOUR_SAMPLES(f, 8) FOUR_SAMPLES(f, 12) FOUR_SAMPLES(f, 16)              \
+  FOUR_SAMPLES(f, 20) FOUR_SAMPLES(f, 24) FOUR_SAMPLES(f, 28)
+
 // The definition, sample by sample.
+#define ADD_OCCLUDED(i) bits |= occluded_sample(planes, samples.offset_px[i].xy) ? 1u << (i) : 0u;
 uint occluded_bits(QuadPlanes planes) {
   uint bits = 0u;
-  for (int i = 0; i < 32; ++i)
-    if (occluded_sample(planes, samples.offset_px[i].xy)) bits |= 1u << i;
+  FOR_ALL_SAMPLES(ADD_OCCLUDED)
   return bits;
 }
 
@@ -37,7 +43,7 @@ uint classify_quad(CameraFrame eye, QuadTriangle t, MicroQuad quad, out bool uns
   uint ca = ~edge_bits(t.edge2, t.vertex_norm1, quad, u2);
   vec3 q = t.edge0.first - quad.center;
   vec3 height = quad_line(t.plane, t.plane_turned, q, quad);
-  height -= quad_bias(eye, quad.center, quad.t, t.vertex_norm1, quad.overhang) * vec3(1.0, quad.slope);
+  height -= quad_bias(eye, quad.center, quad.t, t.vertex_norm1, quad.doubt) * vec3(1.0, quad.slope);
   uint above = table_bits(height, quad_line_error(t.plane_error, t.vertex_norm1, q, quad), uh);
 
   // Each edge's bits are the other triangle's complement, so the triangle's own side decides what is inside. What is unknown
@@ -57,14 +63,16 @@ struct Sides {
   uint below;
 };
 
+#define ADD_SIDE(i)                                                                      \
+  {                                                                                      \
+    float value = line.x + (samples.offset_px[i].x * line.y + samples.offset_px[i].y * line.z); \
+    above |= value > error ? 1u << (i) : 0u;                                             \
+    below |= value < -error ? 1u << (i) : 0u;                                            \
+  }
+
 Sides sides_of(vec3 line, float error) {
   uint above = 0u, below = 0u;
-  for (int i = 0; i < 32; ++i) {
-    vec2 o = samples.offset_px[i].xy;
-    float value = line.x + (o.x * line.y + o.y * line.z);
-    above |= value > error ? 1u << i : 0u;
-    below |= value < -error ? 1u << i : 0u;
-  }
+  FOR_ALL_SAMPLES(ADD_SIDE)
   return Sides(above, below);
 }
 
@@ -81,7 +89,7 @@ uint classify_quad(CameraFrame eye, QuadTriangle t, MicroQuad quad, out bool uns
   Sides ca = Sides(ac.below, ac.above);
   vec3 q = t.edge0.first - quad.center;
   vec3 height = quad_line(t.plane, t.plane_turned, q, quad);
-  height -= quad_bias(eye, quad.center, quad.t, t.vertex_norm1, quad.overhang) * vec3(1.0, quad.slope);
+  height -= quad_bias(eye, quad.center, quad.t, t.vertex_norm1, quad.doubt) * vec3(1.0, quad.slope);
   Sides h = sides_of(height, quad_line_error(t.plane_error, t.vertex_norm1, q, quad));
   if (!t.sided) h = Sides(0u, 0u);
 

@@ -24,6 +24,7 @@ std::string Izb::missing(const gpu::Capabilities& capabilities) const {
 
 void Izb::resize(int width_px, int height_px) {
   built_ = settings_;
+  built_.pair_capacity = settings_.pairs(width_px, height_px);
   const IzbSettings& s = built_;
   width_px_ = width_px, height_px_ = height_px;
   programs_ = IzbPrograms(s);

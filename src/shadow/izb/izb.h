@@ -31,6 +31,7 @@ class Izb final : public Technique {
 
   void resize(int width_px, int height_px) override;
   void render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) override;
+  std::string fault() const override;
   Counts count(const FrameInputs& in, Visibility& out) override;
   Counts memory() const override;
   gpu::Plan memory_needed(int width_px, int height_px) const override;

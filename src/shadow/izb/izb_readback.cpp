@@ -44,6 +44,13 @@ Counts Izb::count(const FrameInputs& in, Visibility& out) {
           {"masks_unchanged", culled.unchanged}};
 }
 
+std::string Izb::fault() const {
+  if (counters_.read<shared::Counters>(1)[0].unfinished == 0) return {};
+  return "a list of the light-space grid is longer than this driver's loops may run, so that shadows are missing: take "
+         "a "
+         "larger --grid or more --cascades";
+}
+
 IzbLists Izb::read_lists() const {
   const std::vector<uint32_t> heads = heads_.read_uint();
   const bool pairs = nodes_.format() == GL_RG32UI;  // next pointer and another word; else the pointer alone

@@ -44,8 +44,8 @@ gpu::Plan Izb::memory_needed(int width_px, int height_px) const {
   if (s.table())
     buffer("table", Kind::buffer_texture,
            sizeof(uint32_t) * uint64_t(s.table_side()) * uint64_t(shared::table_columns(s.table_side())));
-  buffer("pairs", Kind::storage_buffer, sizeof(shared::UnsurePair) * static_cast<uint64_t>(s.pair_capacity),
-         {"--pairs"});
+  buffer("pairs", Kind::storage_buffer,
+         sizeof(shared::UnsurePair) * static_cast<uint64_t>(s.pairs(width_px, height_px)), {"--pairs"});
   buffer("pairs", Kind::storage_buffer, sizeof(shared::Counters));
   if (s.pool()) buffer("pairs", Kind::storage_buffer, sizeof(shared::PoolCounters));
   return plan;

@@ -35,10 +35,16 @@ OptionSet IzbSettings::options() {
   set.flag("zcull-pyramid", zcull_pyramid,
            "with z-cull, end triangles that no receiver lies behind in the geometry shader, by a pyramid of furthest "
            "depths");
-  set.integer("pairs", pair_capacity, 0, 1 << 24, "pairs",
+  set.integer("pairs", pair_capacity, by_size, 1 << 24, "pairs",
               "room for triangle-pixel pairs that single precision cannot decide; when it is exceeded a second pass "
-              "decides them in double");
+              "decides them in double; -1: by the picture, one for 16 pixels, or at 32 samples for 2");
   return set;
+}
+
+int IzbSettings::pairs(int width_px, int height_px) const {
+  if (pair_capacity != by_size) return pair_capacity;
+  const int64_t pixels = int64_t(width_px) * height_px;
+  return static_cast<int>(std::clamp<int64_t>(pixels / (many_samples() ? 2 : 16), 4096, 1 << 24));
 }
 
 std::vector<std::string> IzbSettings::preset_names() {

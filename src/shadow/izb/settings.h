@@ -10,13 +10,15 @@
 namespace izb {
 
 struct IzbSettings {
-  SampleOptions sampling{"1", "hammersley"};
+  static constexpr int by_size = -1;  ///< of pair_capacity
+
+  SampleOptions sampling;
   std::string coverage = "lut", lut = "64", insertion = "approximate", cascade_pass = "single", raster = "gs";
   int grid = 2048, nodes = 8, cascades = 1;
   double dilation_texels = 1.0;
   bool zcull = true, zcull_pyramid = true, nl_cull = true;
   bool removal = false, unchanged_skip = false, pipelining = false;
-  int pair_capacity = 1 << 17;
+  int pair_capacity = by_size;
   /// No option, for tests: the order of insertion is n * stride modulo the number of pixels, to which the stride is
   /// coprime. Nothing but the order within the lists may depend on it.
   int insertion_stride = 1;
@@ -38,6 +40,8 @@ struct IzbSettings {
   /// Texels by which triangles are dilated: what a texel's own square asks for where nodes stand in every texel that
   /// they touch, the option's value where they do not (6.1).
   double dilation() const { return many_samples() && !pool() ? dilation_texels : 0.5; }
+  /// Room for unsure pairs: as asked, or twice what the scenes looked at have needed.
+  int pairs(int width_px, int height_px) const;
   /// Layers that one draw of the casters reaches.
   int layers_a_pass() const { return cascade_pass == "single" ? cascades : 1; }
 };

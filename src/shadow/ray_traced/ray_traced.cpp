@@ -55,7 +55,7 @@ class RayTraced final : public Technique {
     return traced.rays;
   }
 
-  SampleOptions sampling_{"1", "hammersley"};
+  SampleOptions sampling_;
   std::string quality_ = "medium";
   bool nl_cull_ = true;
 };

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// The bars of 32 samples a pixel at their stated sizes on real scenes. Prints its numbers.
+#include <numeric>
+
+#include "full/bars.h"
+
+namespace izb::test {
+namespace {
+
+using Bars32 = Bars;
+
+TEST_F(Bars32, NothingUnexplained) {
+  std::printf("%-28s %8s %10s %10s %9s %9s %11s %8s\n", "scene", "cascades", "compared", "shadowed", "disputed",
+              "explained", "unexplained", "shrunk");
+  for (const fs::path& scene : scenes)
+    for (const char* cascades : {"1", "4"}) {
+      const nlohmann::json j = run("validate", scene, {"--preset", "exact", "--cascades", cascades});
+      if (j.is_null()) continue;
+      std::printf("%-28s %8s %10.0f %10.0f %9d %9d %11d %8d\n", scene.stem().c_str(), cascades,
+                  j["compared"].get<double>(), j["shadowed"].get<double>(), j["disputed"].get<int>(),
+                  j["explained"].get<int>(), j["unexplained"].get<int>(), j["shrunk_pixels"].get<int>());
+      EXPECT_EQ(j["unexplained"], 0) << scene << cascades;
+    }
+}
+
+TEST_F(Bars32, InsertionLeaks) {
+  std::vector<double> leaks, nv_leaks;
+  std::printf("%-28s %10s %9s %9s %9s %9s %9s %12s\n", "scene", "shadowed", "table", "leaks", "percent", "nv leaks",
+              "percent", "model differs");
+  for (const fs::path& scene : scenes) {
+    const nlohmann::json j = run("validate", scene, {"--model", "on"});
+    const nlohmann::json nv = run("validate", scene, {"--insertion", "nv"});
+    if (j.is_null() || nv.is_null()) continue;
+    const nlohmann::json &a = j["attribution"], &b = nv["attribution"];
+    leaks.push_back(a["leak_percent"]);
+    nv_leaks.push_back(b["leak_percent"]);
+    std::printf("%-28s %10.0f %9d %9d %8.4f%% %9d %8.4f%% %11.3f%%\n", scene.stem().c_str(),
+                a["shadowed_bits"].get<double>(), a["table"].get<int>(), a["insertion_leaks"].get<int>(), leaks.back(),
+                b["insertion_leaks"].get<int>(), nv_leaks.back(), j["model"]["percent"].get<double>());
+    EXPECT_EQ(j["unexplained"], 0) << scene;
+  }
+  std::printf("median: %.4f%%, by N.V alone %.4f%%\n", median(leaks), median(nv_leaks));
+  EXPECT_LE(median(leaks), 0.02);
+  EXPECT_LT(median(leaks), median(nv_leaks));
+}
+
+TEST_F(Bars32, SameMaskWithExactInsertion) {
+  const std::pair<std::vector<std::string>, RunOptions> variants[] = {
+      {{"--context", "osmesa"}, {}},
+      {{"--grid", "1024"}, {}},
+      {{"--grid", "4096"}, {}},
+      {{"--cascades", "4"}, {}},
+      {{"--cascades", "3", "--cascade-pass", "multiple"}, {}},
+      {{"--zcull", "off"}, {}},
+      {{"--removal", "on"}, {}},
+      {{"--unchanged-skip", "on"}, {}},
+      {{"--pipelining", "on"}, {}},
+      {{"--pairs", "0"}, {}},
+      {{}, {{{"LP_NUM_THREADS", "0"}}, false}},
+      {{}, {{{"LP_NUM_THREADS", "1"}}, false}},
+  };
+  for (const fs::path& scene : scenes) {
+    const std::vector<std::string> exact{"--preset", "exact"};
+    const std::string hash = run("render", scene, exact).value("mask_hash", "none");
+    std::printf("%-28s %s\n", scene.stem().c_str(), hash.c_str());
+    for (auto [words, options] : variants) {
+      words.insert(words.end(), exact.begin(), exact.end());
+      EXPECT_EQ(run("render", scene, words, options).value("mask_hash", ""), hash)
+          << scene << testing::PrintToString(words) << testing::PrintToString(options.environment);
+    }
+    for (int again = 1; again < 10; ++again)
+      EXPECT_EQ(run("render", scene, exact).value("mask_hash", ""), hash) << scene << ", run " << again;
+    // By the table, too, and with approximate insertion.
+    EXPECT_EQ(run("render", scene, {"--pairs", "0"}).value("mask_hash", ""),
+              run("render", scene, {}).value("mask_hash", "none"))
+        << scene;
+  }
+}
+
+TEST_F(Bars32, Cost) {
+  std::vector<double> ratios, peers, nodes;
+  std::printf("%-28s %10s %9s %9s %7s %9s %7s %8s\n", "scene", "triangles", "1 spp ms", "32 spp ms", "32 / 1",
+              "peer ms", "/ peer", "nodes/px");
+  for (const fs::path& scene : scenes) {
+    // With the peer in both, so that nothing but the samples differs.
+    const nlohmann::json one = run("render", scene, {"--spp", "1", "--repeat", "5", "--peer", "on"});
+    const nlohmann::json j = run("render", scene, {"--repeat", "5", "--peer", "on"});
+    if (one.is_null() || j.is_null()) continue;
+    const double peer = j["peer"]["fastest_rebuild_plus_trace_ms"];
+    ratios.push_back(stages_ms(j) / stages_ms(one));
+    peers.push_back(stages_ms(j) / peer);
+    nodes.push_back(j["averages"]["nodes_a_receiver"]);
+    std::printf("%-28s %10d %9.1f %9.1f %7.2f %9.1f %7.2f %8.2f\n", scene.stem().c_str(),
+                j["scene"]["triangles"].get<int>(), stages_ms(one), stages_ms(j), ratios.back(), peer, peers.back(),
+                nodes.back());
+  }
+  const double nodes_px = std::accumulate(nodes.begin(), nodes.end(), 0.0) / double(nodes.size());
+  std::printf("medians: 32 / 1 %.2f, / peer %.2f; mean nodes %.2f\n", median(ratios), median(peers), nodes_px);
+  EXPECT_LE(median(ratios), 2.5);
+  EXPECT_LE(median(peers), 2.0);
+  EXPECT_LE(nodes_px, 2.2);
+}
+
+}  // namespace
+}  // namespace izb::test
