@@ -11,7 +11,7 @@ usage: IZB_SCENES=FOLDER bench/claims.sh [NAME...]
 Renders each scene of the folder (or those named, without .glb or .gltf) at 1920x1080 from the viewpoint of its name in
 bench/views.json, by default and with one option changed, and prints for each option the change in the time of bounds,
 build, zcull and visibility, in fragments, in tests, and in nodes: medians over the scenes and, of the time, the extremes.
-Each changed run stands between two runs of the defaults, whose mean it is compared with.
+The defaults run before the changes, amid them and after them; changed runs are compared with the median of the three.
 
   REPEAT=N  frames a run (default 3)
   OUT=DIR   where the numbers of each run stay (default out/claims)
@@ -63,24 +63,27 @@ measure() {
 
 : >"$out/runs.txt"
 for name in "${names[@]}"; do
-  before=$(measure "$name")
-  for change in "${changes[@]}"; do
+  defaults=$(measure "$name")
+  : >"$out/changed.txt"
+  for i in "${!changes[@]}"; do
+    [ "$i" -ne $((${#changes[@]} / 2)) ] || defaults+=$'\n'$(measure "$name")
     # shellcheck disable=SC2086  # a change is several words
-    if changed=$(measure "$name" $change); then
-      after=$(measure "$name")
-      echo "$change|$name $before $changed $after" >>"$out/runs.txt"
-      before=$after
+    if changed=$(measure "$name" ${changes[i]}); then
+      echo "${changes[i]}|$changed" >>"$out/changed.txt"
     else
-      echo "claims.sh: $name with $change failed" >&2
+      echo "claims.sh: $name with ${changes[i]} failed" >&2
     fi
   done
+  defaults+=$'\n'$(measure "$name")
+  middle=$(echo "$defaults" | sort -g | sed -n 2p)
+  sed "s/|/|$name $middle /" "$out/changed.txt" >>"$out/runs.txt"
 done
 
 echo "| option | scenes | time | from | to | fragments | tests | nodes |"
 echo "|---|---|---|---|---|---|---|---|"
 for change in "${changes[@]}"; do
   grep -F -- "$change|" "$out/runs.txt" | awk -F'|' -v change="$change" '$1 == change { print $2 }' | awk -v change="$change" '
-    { n++; time[n] = 2 * $6 / ($2 + $10); fragments[n] = $7 / $3; tests[n] = $8 / $4; nodes[n] = $9 / $5 }
+    { n++; time[n] = $6 / $2; fragments[n] = $7 / $3; tests[n] = $8 / $4; nodes[n] = $9 / $5 }
     function median(a, n,   i, k, v) {
       for (i = 2; i <= n; ++i) { v = a[i]; for (k = i - 1; k > 0 && a[k] > v; --k) a[k + 1] = a[k]; a[k + 1] = v }
       return (a[int((n + 1) / 2)] + a[int((n + 2) / 2)]) / 2
