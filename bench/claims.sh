@@ -18,38 +18,18 @@ The defaults run before the changes, amid them and after them; changed runs are 
 TEXT
 }
 
-if [ "${1:-}" = --help ] || [ "${1:-}" = -h ]; then
-  usage
-  exit 0
-fi
-if [ ! -d "${IZB_SCENES:-}" ]; then
-  usage >&2
-  exit 2
-fi
-
-folder=$(cd "$IZB_SCENES" && pwd)
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-out=${OUT:-out/claims}
-mkdir -p "$out"
-./run build
-names=("$@")
-if [ $# -eq 0 ]; then
-  for file in "$folder"/*.glb "$folder"/*.gltf; do
-    if [ -f "$file" ]; then names+=("$(basename "${file%.*}")"); fi
-  done
-fi
+# shellcheck source=bench/scenes.sh
+source "$(dirname "${BASH_SOURCE[0]}")/scenes.sh"
 
 changes=("--zcull off" "--zcull-pyramid off" "--nl-cull off" "--removal on" "--unchanged-skip on" "--pipelining on"
   "--dilation 0.5" "--nodes 2" "--cascades 4" "--cascades 4 --cascade-pass multiple" "--lut 32" "--lut 128"
   "--coverage exact" "--insertion exact" "--preset paper" "--spp 1")
 
-# measure SCENE OPTION...: shadow ms, fragments, tests and nodes on one line.
+# measure FILE OPTION...: shadow ms, fragments, tests and nodes on one line.
 measure() {
-  local name=$1 file json
+  local file=$1 json=$out/run.json
   shift
-  for file in "$folder/$name".glb "$folder/$name".gltf; do [ ! -f "$file" ] || break; done
-  json=$out/run.json
-  build/release/izb render "$file" --viewpoint "$name" --size 1920x1080 --repeat "${REPEAT:-3}" --json "$json" "$@" \
+  build/release/izb render "$file" --viewpoint "$(basename "${file%.*}")" --size 1920x1080 --repeat "${REPEAT:-3}" --json "$json" "$@" \
     >"$out/run.log" 2>&1 || { cat "$out/run.log" >&2; return 1; }
   awk '
     function number(line) { sub(/^[^:]*: */, "", line); sub(/,$/, "", line); return line + 0 }
@@ -62,19 +42,20 @@ measure() {
 }
 
 : >"$out/runs.txt"
-for name in "${names[@]}"; do
-  defaults=$(measure "$name")
+for file in "${scenes[@]}"; do
+  name=$(basename "${file%.*}")
+  defaults=$(measure "$file")
   : >"$out/changed.txt"
   for i in "${!changes[@]}"; do
-    [ "$i" -ne $((${#changes[@]} / 2)) ] || defaults+=$'\n'$(measure "$name")
+    [ "$i" -ne $((${#changes[@]} / 2)) ] || defaults+=$'\n'$(measure "$file")
     # shellcheck disable=SC2086  # a change is several words
-    if changed=$(measure "$name" ${changes[i]}); then
+    if changed=$(measure "$file" ${changes[i]}); then
       echo "${changes[i]}|$changed" >>"$out/changed.txt"
     else
       echo "claims.sh: $name with ${changes[i]} failed" >&2
     fi
   done
-  defaults+=$'\n'$(measure "$name")
+  defaults+=$'\n'$(measure "$file")
   middle=$(echo "$defaults" | sort -g | sed -n 2p)
   sed "s/|/|$name $middle /" "$out/changed.txt" >>"$out/runs.txt"
 done

@@ -18,42 +18,8 @@ sample, and the ratio; at the end the median over the scenes between 100,000 and
 TEXT
 }
 
-if [ "${1:-}" = --help ] || [ "${1:-}" = -h ]; then
-  usage
-  exit 0
-fi
-if [ ! -d "${IZB_SCENES:-}" ]; then
-  usage >&2
-  exit 2
-fi
-
-folder=$(cd "$IZB_SCENES" && pwd)
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-out=${OUT:-out/peer}
-mkdir -p "$out"
-./run build
-scenes=()
-if [ $# -gt 0 ]; then
-  for name in "$@"; do
-    found=false
-    for file in "$folder/$name".glb "$folder/$name".gltf; do
-      if [ -f "$file" ]; then
-        scenes+=("$file")
-        found=true
-      fi
-    done
-    if ! $found; then
-      echo "peer.sh: no $name.glb or $name.gltf in $folder" >&2
-      exit 1
-    fi
-  done
-else
-  for file in "$folder"/*.glb "$folder"/*.gltf; do
-    if [ -f "$file" ]; then
-      scenes+=("$file")
-    fi
-  done
-fi
+# shellcheck source=bench/scenes.sh
+source "$(dirname "${BASH_SOURCE[0]}")/scenes.sh"
 
 # row JSON NAME: one line of the table; the ratio of a scene of 100 k to 1 M triangles is also added to $ratios.
 row() {
@@ -79,8 +45,8 @@ echo "|---|---|---|---|---|---|---|---|---|"
 for file in "${scenes[@]}"; do
   name=$(basename "${file%.*}")
   json=$out/$name.json
-  if build/release/izb render "$file" --viewpoint "$name" --size 1920x1080 --spp "${SPP:-32}" --repeat "${REPEAT:-5}" --peer on \
-    --json "$json" >"$out/$name.log"; then
+  if build/release/izb render "$file" --viewpoint "$name" --size 1920x1080 --spp "${SPP:-32}" \
+    --repeat "${REPEAT:-5}" --peer on --json "$json" >"$out/$name.log"; then
     row "$json" "$name"
   else
     echo "peer.sh: $name failed" >&2

@@ -24,30 +24,15 @@ TEST_F(Bars, NothingUnexplained) {
 }
 
 TEST_F(Bars, SameMask) {
-  const std::pair<std::vector<std::string>, RunOptions> variants[] = {
-      {{"--context", "osmesa"}, {}},
-      {{"--grid", "256"}, {}},
-      {{"--grid", "512"}, {}},
-      {{"--grid", "1024"}, {}},
-      {{"--grid", "4096"}, {}},
-      {{"--zcull", "off"}, {}},
-      {{}, {{{"LP_NUM_THREADS", "0"}}, false}},
-      {{}, {{{"LP_NUM_THREADS", "1"}}, false}},
-      {{}, {{{"LP_NUM_THREADS", "2"}}, false}},
-  };
-  for (const fs::path& scene : scenes) {
-    const nlohmann::json first = run("render", scene, {"--spp", "1", "--context", "egl"});
-    if (first.is_null()) continue;
-    const std::string hash = first.value("mask_hash", "none");
-    std::printf("%-28s %s\n", scene.stem().c_str(), hash.c_str());
-    for (auto [words, options] : variants) {
-      words.insert(words.end(), {"--spp", "1"});
-      EXPECT_EQ(run("render", scene, words, options).value("mask_hash", ""), hash)
-          << scene << testing::PrintToString(words) << testing::PrintToString(options.environment);
-    }
-    for (int again = 1; again < 10; ++again)
-      EXPECT_EQ(run("render", scene, {"--spp", "1"}).value("mask_hash", ""), hash) << scene << ", run " << again;
-  }
+  expect_same_mask({"--spp", "1"}, {{{"--context", "osmesa"}, {}},
+                                    {{"--grid", "256"}, {}},
+                                    {{"--grid", "512"}, {}},
+                                    {{"--grid", "1024"}, {}},
+                                    {{"--grid", "4096"}, {}},
+                                    {{"--zcull", "off"}, {}},
+                                    {{}, {{{"LP_NUM_THREADS", "0"}}, false}},
+                                    {{}, {{{"LP_NUM_THREADS", "1"}}, false}},
+                                    {{}, {{{"LP_NUM_THREADS", "2"}}, false}}});
 }
 
 TEST_F(Bars, ZCullSaves) {

@@ -60,6 +60,23 @@ struct Bars : testing::Test {
     EXPECT_EQ(outcome.code, 0) << testing::PrintToString(words) << "\n" << outcome.out << outcome.err;
     return fs::exists(written) ? read_json(written) : nlohmann::json();
   }
+
+  using Variant = std::pair<std::vector<std::string>, RunOptions>;
+
+  /// The mask of each scene by `words` is the same for each variant of them, and in ten runs.
+  void expect_same_mask(const std::vector<std::string>& words, const std::vector<Variant>& variants) const {
+    for (const fs::path& scene : scenes) {
+      const std::string hash = run("render", scene, words).value("mask_hash", "none");
+      std::printf("%-28s %s\n", scene.stem().c_str(), hash.c_str());
+      for (auto [more, options] : variants) {
+        more.insert(more.begin(), words.begin(), words.end());
+        EXPECT_EQ(run("render", scene, more, options).value("mask_hash", ""), hash)
+            << scene << testing::PrintToString(more) << testing::PrintToString(options.environment);
+      }
+      for (int again = 1; again < 10; ++again)
+        EXPECT_EQ(run("render", scene, words).value("mask_hash", ""), hash) << scene << ", run " << again;
+    }
+  }
 };
 
 /// Sum of the shadow stages' medians in ms; `all`: of all stages.

@@ -46,9 +46,8 @@ Counts Izb::count(const FrameInputs& in, Visibility& out) {
 
 std::string Izb::fault() const {
   if (counters_.read<shared::Counters>(1)[0].unfinished == 0) return {};
-  return "a list of the light-space grid is longer than this driver's loops may run, so that shadows are missing: take "
-         "a "
-         "larger --grid or more --cascades";
+  return "a list of the light-space grid is longer than this driver's loops may run, so that shadows are missing: "
+         "take a larger --grid or more --cascades";
 }
 
 IzbLists Izb::read_lists() const {

@@ -40,7 +40,7 @@ struct IzbSettings {
   /// Texels by which triangles are dilated: what a texel's own square asks for where nodes stand in every texel that
   /// they touch, the option's value where they do not (6.1).
   double dilation() const { return many_samples() && !pool() ? dilation_texels : 0.5; }
-  /// Room for unsure pairs: as asked, or twice what the scenes looked at have needed.
+  /// Room for unsure pairs: as asked, or by the picture's size: at 32 samples twice the most seen.
   int pairs(int width_px, int height_px) const;
   /// Layers that one draw of the casters reaches.
   int layers_a_pass() const { return cascade_pass == "single" ? cascades : 1; }
