@@ -21,7 +21,7 @@ TEXT
 # shellcheck source=bench/scenes.sh
 source "$(dirname "${BASH_SOURCE[0]}")/scenes.sh"
 
-changes=("--zcull off" "--zcull-pyramid off" "--nl-cull off" "--removal on" "--unchanged-skip on" "--pipelining on"
+changes=("--zcull off" "--zcull-pyramid off" "--nl-cull off" "--removal off" "--unchanged-skip off" "--pipelining on"
   "--dilation 0.5" "--nodes 2" "--cascades 4" "--cascades 4 --cascade-pass multiple" "--lut 32" "--lut 128"
   "--coverage exact" "--insertion exact" "--preset paper" "--spp 1")
 

@@ -60,38 +60,42 @@ SHARED QuadOnGrid project_quad(IN(LightFrame) light, IN(LightWindow) window, IN(
   return q;
 }
 
-// ---- approximate: a row of nodes along one axis ----------------------------------------------------------------------
+// ---- texels that answer for the whole micro-quad ---------------------------------------------------------------------
 
-// Half the micro-quad's longest axis in light space, as a sample offset: of the two through the middles of opposite sides and
-// the two diagonals the longest, in texels.
-SHARED vec2 longest_axis(IN(QuadOnGrid) q, OUT(float) length_texels) {
-  vec2 d0 = vec2(q.corner2.x - q.corner0.x, q.corner2.y - q.corner0.y);
-  vec2 d1 = vec2(q.corner1.x - q.corner3.x, q.corner1.y - q.corner3.y);
-  vec2 x = (d0 + d1) * 0.5f;
-  vec2 y = (d0 - d1) * 0.5f;
-  float lx = dot(x, x);
-  float ly = dot(y, y);
-  float l0 = dot(d0, d0);
-  float l1 = dot(d1, d1);
-  // A diagonal only where it is the long way: a square's is not.
-  vec2 axis = lx >= ly ? vec2(0.5f, 0.0f) : vec2(0.0f, 0.5f);
-  float most = max(lx, ly);
-  if (l0 > 2.5f * most) {
-    axis = vec2(0.5f, 0.5f);
-    most = l0;
+// A triangle visits each texel whose centre it comes within `reach` of (the raster's dilation) in both axes, so a node
+// answers for all points that near to its texel's centre. With a reach of 1/2 that is its texel, and the cover below is
+// exact insertion; with the paper's 1 texel every second texel will do. Nodes stand in rows along the micro-quad's long axis.
+
+SHARED int clamped_texel(float x, int last) { return int(clamp(floor(x), 0.0f, float(last))); }
+
+// Texels of one axis whose reaches together hold an interval; where they may be only `most`, as many at even distances.
+struct Run {
+  int start;
+  int span;
+  int needed;
+  int count;
+};
+
+SHARED Run make_run(float low, float high, float reach, int last, int most) {
+  int step = int(2.0f * reach);
+  int first = clamped_texel(low + (reach - 0.5f), last);
+  float beyond = min(high, float(last + 1)) - (float(first) + 0.5f + reach);
+  Run r;
+  r.needed = low > high ? 0 : 1 + int(ceil(max(beyond, 0.0f) / float(step)));
+  r.count = min(r.needed, most);
+  r.start = first - step / 2;
+  r.span = r.count * step;
+  if (r.count < r.needed) {
+    r.start = clamped_texel(low, last);
+    r.span = clamped_texel(high, last) + 1 - r.start;
   }
-  if (l1 > 2.5f * max(lx, ly) && l1 > l0) {
-    axis = vec2(0.5f, -0.5f);
-    most = l1;
-  }
-  length_texels = sqrt(most);
-  return axis;
+  return r;
 }
 
-// ---- exact: every texel that the micro-quad touches ------------------------------------------------------------------
+SHARED int run_texel(IN(Run) r, int i, int last) { return min(r.start + (2 * i + 1) * r.span / (2 * r.count), last); }
 
 // Widens [low, high] by what of the segment pq lies in the rows [bottom, top].
-SHARED void add_segment(IN(vec3) p, IN(vec3) q, float bottom, float top, OUT(float) low, OUT(float) high) {
+SHARED void add_segment(IN(vec2) p, IN(vec2) q, float bottom, float top, OUT(float) low, OUT(float) high) {
   float y0 = min(p.y, q.y);
   float y1 = max(p.y, q.y);
   if (y1 < bottom || y0 > top) return;
@@ -104,28 +108,59 @@ SHARED void add_segment(IN(vec3) p, IN(vec3) q, float bottom, float top, OUT(flo
   high = max(high, right);
 }
 
-SHARED int clamped_texel(float x, int last) { return int(clamp(floor(x), 0.0f, float(last))); }
+struct Cover {
+  vec2 corner0;  // in texels; x and y exchanged where the long axis is x
+  vec2 corner1;
+  vec2 corner2;
+  vec2 corner3;
+  bool exchanged;
+  float reach;
+  float guard;  // texels by which points may be off
+  int last;
+  Run rows;
+};
 
-// First and last row of texels that the quad touches, `guard` texels around it included.
-SHARED ivec2 quad_rows(IN(QuadOnGrid) q, float guard, int last) {
-  float low = min(min(q.corner0.y, q.corner1.y), min(q.corner2.y, q.corner3.y));
-  float high = max(max(q.corner0.y, q.corner1.y), max(q.corner2.y, q.corner3.y));
-  return ivec2(clamped_texel(low - guard, last), clamped_texel(high + guard, last));
+// At most `most` rows.
+SHARED Cover make_cover(IN(QuadOnGrid) q, float reach, float guard, int last, int most) {
+  Cover c;
+  c.corner0 = vec2(q.corner0.x, q.corner0.y);
+  c.corner1 = vec2(q.corner1.x, q.corner1.y);
+  c.corner2 = vec2(q.corner2.x, q.corner2.y);
+  c.corner3 = vec2(q.corner3.x, q.corner3.y);
+  vec2 low = min(min(c.corner0, c.corner1), min(c.corner2, c.corner3));
+  vec2 high = max(max(c.corner0, c.corner1), max(c.corner2, c.corner3));
+  c.exchanged = high.x - low.x > high.y - low.y;
+  if (c.exchanged) {
+    c.corner0 = vec2(c.corner0.y, c.corner0.x);
+    c.corner1 = vec2(c.corner1.y, c.corner1.x);
+    c.corner2 = vec2(c.corner2.y, c.corner2.x);
+    c.corner3 = vec2(c.corner3.y, c.corner3.x);
+  }
+  c.reach = reach;
+  c.guard = guard;
+  c.last = last;
+  c.rows = make_run((c.exchanged ? low.x : low.y) - guard, (c.exchanged ? high.x : high.y) + guard, reach, last, most);
+  return c;
 }
 
-// First and last texel of a row; x > y: none.
-SHARED ivec2 quad_columns(IN(QuadOnGrid) q, float guard, int last, int row) {
+// At most `most` nodes in a row.
+SHARED Run cover_row(IN(Cover) c, int row, int most) {
   float low = 3.0e38f;
   float high = -3.0e38f;
   // The border rows also hold what lies outside the grid.
-  float bottom = row == 0 ? -3.0e38f : float(row) - guard;
-  float top = row == last ? 3.0e38f : float(row + 1) + guard;
-  add_segment(q.corner0, q.corner1, bottom, top, low, high);
-  add_segment(q.corner1, q.corner2, bottom, top, low, high);
-  add_segment(q.corner2, q.corner3, bottom, top, low, high);
-  add_segment(q.corner3, q.corner0, bottom, top, low, high);
-  if (low > high) return ivec2(1, 0);
-  return ivec2(clamped_texel(low - guard, last), clamped_texel(high + guard, last));
+  float center = float(row) + 0.5f;
+  float bottom = row == 0 ? -3.0e38f : center - c.reach - c.guard;
+  float top = row == c.last ? 3.0e38f : center + c.reach + c.guard;
+  add_segment(c.corner0, c.corner1, bottom, top, low, high);
+  add_segment(c.corner1, c.corner2, bottom, top, low, high);
+  add_segment(c.corner2, c.corner3, bottom, top, low, high);
+  add_segment(c.corner3, c.corner0, bottom, top, low, high);
+  return make_run(low - c.guard, high + c.guard, c.reach, c.last, most);
+}
+
+SHARED ivec2 cover_texel(IN(Cover) c, int row, IN(Run) run, int i) {
+  int column = run_texel(run, i, c.last);
+  return c.exchanged ? ivec2(row, column) : ivec2(column, row);
 }
 
 SHARED_END

@@ -77,7 +77,7 @@ std::string mask_hash(const std::vector<uint32_t>& mask) {
   return sha256_hex(std::as_bytes(std::span(mask)));
 }
 
-Image frame_image(const Session& session, const Technique& technique, const nlohmann::json& facts) {
+Image frame_image(const Session& session, Technique& technique, const nlohmann::json& facts) {
   const FrameInputs& in = session.renderer.inputs();
   const GBufferImage gbuffer = read_gbuffer(*in.gbuffer);
   const std::vector<uint32_t> mask = session.renderer.read_mask();
@@ -106,7 +106,7 @@ Image frame_image(const Session& session, const Technique& technique, const nloh
   plane("normal.X", [&](size_t i) { return normals[i].x; });
   plane("normal.Y", [&](size_t i) { return normals[i].y; });
   plane("normal.Z", [&](size_t i) { return normals[i].z; });
-  if (std::vector<float> lengths = technique.list_lengths(); !lengths.empty())
+  if (std::vector<float> lengths = technique.list_lengths(in); !lengths.empty())
     image.add("list_length", flip_rows(std::move(lengths), in.width_px, in.height_px));
   image.add("mask", mask);
 

@@ -19,7 +19,7 @@ std::string mask_hash(const std::vector<uint32_t>& mask);
 
 /// The last frame as channels R G B, visibility, depth, normal.X/Y/Z, mask, list_length (where the technique has
 /// lists), with the standard attributes worldToCamera and worldToNDC, the light, and `facts` as text.
-Image frame_image(const Session& session, const Technique& technique, const nlohmann::json& facts);
+Image frame_image(const Session& session, Technique& technique, const nlohmann::json& facts);
 
 double median(std::vector<double> values);
 

@@ -44,7 +44,8 @@ nlohmann::json statistics_json(Session& session) {
   json["counts"] = counts_json(session.renderer.count());
   json["counts"].update(counts_json(receiver_counts(session.renderer)));
   json["averages"] = averages_json(json["counts"]);
-  if (std::vector<uint64_t> histogram = session.technique->list_histogram(); !histogram.empty())
+  if (std::vector<uint64_t> histogram = session.technique->list_histogram(session.renderer.inputs());
+      !histogram.empty())
     json["list_histogram"] = std::move(histogram);
   return json;
 }

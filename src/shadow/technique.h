@@ -56,10 +56,11 @@ class Technique {
   virtual Counts memory() const = 0;
   /// What resize() would take with the options as they are, part by part as memory() names them. Needs no GL.
   virtual gpu::Plan memory_needed(int width_px, int height_px) const = 0;
-  /// Length of the longest list in which each pixel stands (bottom row first), or empty if it has no lists.
-  virtual std::vector<float> list_lengths() const { return {}; }
-  /// Entry n: how many lists have n nodes; empty if it has no lists.
-  virtual std::vector<uint64_t> list_histogram() const { return {}; }
+  /// Of the last frame's lists as they were built: length of the longest in which each pixel stands (bottom row first),
+  /// or empty if it has no lists.
+  virtual std::vector<float> list_lengths(const FrameInputs&) { return {}; }
+  /// Of the same, entry n: how many lists have n nodes; empty if it has no lists.
+  virtual std::vector<uint64_t> list_histogram(const FrameInputs&) { return {}; }
   /// Every program that it can compile: the defaults and each option alone. Needs no GL.
   virtual std::vector<gpu::ProgramSpec> program_specs() const = 0;
 };

@@ -130,7 +130,7 @@ TEST_F(Output, JsonHasTheDocumentedKeys) {
 
 TEST_F(Output, TheListHistogramAddsUpToTheCounts) {
   for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"--spp", "1"}, {"--spp", "32", "--cascades", "2", "--removal", "on"}}) {
+       {std::vector<std::string>{"--spp", "1"}, {"--spp", "32", "--cascades", "2", "--removal", "off"}}) {
     ASSERT_EQ(render(words).code, 0);
     const nlohmann::json j = read_json(json), counts = j["counts"], averages = j["averages"];
     const auto histogram = j["list_histogram"].get<std::vector<uint64_t>>();

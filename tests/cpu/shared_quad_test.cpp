@@ -199,47 +199,98 @@ TEST(SharedCoverage, IsTheExactPredicateAtEachSampleButForTheBias) {
   EXPECT_GT(partly, 200);
 }
 
-TEST(SharedInsertion, ExactInsertionCoversEveryTexelThatAPointOfTheMicroQuadFallsInto) {
-  Random random(95);
-  const shared::CameraFrame camera = perspective_camera();
-  size_t texels = 0;
-  for (int i = 0; i < 3000; ++i) {
+/// A micro-quad on a grid on which it is between a fraction of a texel and some twenty texels wide.
+struct OnGrid {
+  shared::MicroQuad quad;
+  shared::LightFrame light;
+  shared::LightWindow window{};
+  shared::QuadOnGrid corners;
+  int last = 0;
+
+  explicit OnGrid(Random& random) {
+    const shared::CameraFrame camera = perspective_camera();
     const Pixel p = random_pixel(random, camera);
-    const shared::LightFrame light = make_light(random.direction(), nullptr, 64u << random.below(6));
-    const shared::MicroQuad quad = shared::make_micro_quad(camera, p.px, p.data);
-    // A window in which the micro-quad is between a fraction of a texel and some twenty texels wide.
+    light = make_light(random.direction(), nullptr, 64u << random.below(6));
+    quad = shared::make_micro_quad(camera, p.px, p.data);
     const glm::vec3 at = shared::light_uvd(light, shared::light_position(light, quad.center));
-    shared::LightWindow window{};
     const float scale = float(random.uniform(0.05, 20.0)) / quad.extent;
     const float side = float(light.grid.x);
     window.window =
         glm::vec4(at.x - float(random.uniform(0.2, 0.8)) * side / scale, at.y - 0.5f * side / scale, scale, scale);
     window.guard.x = shared::quad_uv_error(light, quad, at) * scale + 8.0f * shared::unit_roundoff * side;
-    const shared::QuadOnGrid on_grid = shared::project_quad(light, window, quad);
-    const int last = int(light.grid.x) - 1;
-    const float guard = window.guard.x + 0.001f;
-    const glm::ivec2 rows = shared::quad_rows(on_grid, guard, last);
-    for (int y = rows.x; y <= rows.y; ++y) {
-      const glm::ivec2 columns = shared::quad_columns(on_grid, guard, last, y);
-      texels += size_t(std::max(columns.y - columns.x + 1, 0));
+    corners = shared::project_quad(light, window, quad);
+    last = int(light.grid.x) - 1;
+  }
+
+  /// Where a point of the micro-quad lies, within the grid.
+  glm::dvec2 position(const glm::dvec2& offset_px) const {
+    const glm::dvec3 q = point_in_double(quad, offset_px);
+    const glm::dvec2 uv(glm::dot(glm::dvec3(glm::vec3(light.axis_x)), q),
+                        glm::dot(glm::dvec3(glm::vec3(light.axis_y)), q));
+    return glm::clamp((uv - glm::dvec2(window.window.x, window.window.y)) * double(window.window.z), 0.0,
+                      double(last) + 1.0);
+  }
+};
+
+std::vector<glm::ivec2> texels_of(const shared::Cover& cover, int most_a_row) {
+  std::vector<glm::ivec2> texels;
+  for (int i = 0; i < cover.rows.count; ++i) {
+    const int row = shared::run_texel(cover.rows, i, cover.last);
+    const shared::Run columns = shared::cover_row(cover, row, most_a_row);
+    for (int k = 0; k < columns.count; ++k) texels.push_back(shared::cover_texel(cover, row, columns, k));
+  }
+  return texels;
+}
+
+constexpr int no_limit = 0x7fff;
+
+TEST(SharedInsertion, SomeNodeIsWithinReachOfEachPointOfTheMicroQuad) {
+  std::vector<size_t> nodes;
+  for (const float reach : {0.5f, 0.75f, 1.0f, 1.6f, 4.0f}) {
+    Random random(95);
+    size_t count = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const OnGrid on(random);
+      const shared::Cover cover = shared::make_cover(on.corners, reach, on.window.guard.x + 0.001f, on.last, no_limit);
+      const std::vector<glm::ivec2> texels = texels_of(cover, no_limit);
+      count += texels.size();
+      for (int k = 0; k < 60; ++k) {
+        const glm::dvec2 p = on.position(k < 4 ? glm::dvec2(shared::corner_offset(k))
+                                               : glm::dvec2(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)));
+        ASSERT_TRUE(std::any_of(texels.begin(), texels.end(),
+                                [&](const glm::ivec2& texel) {
+                                  const glm::dvec2 d = glm::abs(p - (glm::dvec2(texel) + 0.5));
+                                  return std::max(d.x, d.y) <= double(reach);
+                                }))
+            << reach << " " << i << " " << p.x << " " << p.y;
+      }
     }
-    for (int k = 0; k < 60; ++k) {
-      const glm::dvec2 o = k < 4 ? glm::dvec2(shared::corner_offset(k))
-                                 : glm::dvec2(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5));
-      const glm::dvec3 q = point_in_double(quad, o);
-      const double u = glm::dot(glm::dvec3(glm::vec3(light.axis_x)), q),
-                   v = glm::dot(glm::dvec3(glm::vec3(light.axis_y)), q);
-      const int x = std::clamp(int(std::floor((u - window.window.x) * window.window.z)), 0, last);
-      const int y = std::clamp(int(std::floor((v - window.window.y) * window.window.w)), 0, last);
-      ASSERT_GE(y, rows.x);
-      ASSERT_LE(y, rows.y);
-      const glm::ivec2 columns = shared::quad_columns(on_grid, guard, last, y);
-      ASSERT_GE(x, columns.x) << i;
-      ASSERT_LE(x, columns.y) << i;
+    nodes.push_back(count);
+  }
+  // A little above what was measured: 11.9, 9.9, 4.5, 2.6 and 1.2 a micro-quad.
+  const double most[] = {12.5, 10.3, 4.8, 2.8, 1.3};
+  for (size_t i = 0; i < nodes.size(); ++i) EXPECT_LT(double(nodes[i]) / 2000.0, most[i]) << i;
+}
+
+TEST(SharedInsertion, NoTexelIsTakenTwiceNorMoreThanAllowed) {
+  Random random(96);
+  size_t cut = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const OnGrid on(random);
+    const float reach = float(random.uniform(0.5, 2.5));
+    const int rows = 1 + int(random.below(8)), columns = 1 + int(random.below(8));
+    const shared::Cover cover = shared::make_cover(on.corners, reach, on.window.guard.x + 0.001f, on.last, rows);
+    std::vector<glm::ivec2> texels = texels_of(cover, columns);
+    ASSERT_LE(cover.rows.count, rows);
+    ASSERT_LE(int(texels.size()), rows * columns);
+    ASSERT_FALSE(texels.empty());
+    cut += cover.rows.count < cover.rows.needed;
+    for (const glm::ivec2& texel : texels) {
+      ASSERT_EQ(std::count(texels.begin(), texels.end(), texel), 1) << i;
+      ASSERT_TRUE(texel.x >= 0 && texel.y >= 0 && texel.x <= on.last && texel.y <= on.last) << i;
     }
   }
-  // Tight: an axis-aligned box alone would hold about twice as many.
-  EXPECT_LT(texels, size_t(3000) * 120);
+  EXPECT_GT(cut, 500u);
 }
 
 }  // namespace

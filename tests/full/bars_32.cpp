@@ -51,8 +51,8 @@ TEST_F(Bars32, SameMaskWithExactInsertion) {
                                            {{"--cascades", "4"}, {}},
                                            {{"--cascades", "3", "--cascade-pass", "multiple"}, {}},
                                            {{"--zcull", "off"}, {}},
-                                           {{"--removal", "on"}, {}},
-                                           {{"--unchanged-skip", "on"}, {}},
+                                           {{"--removal", "off"}, {}},
+                                           {{"--unchanged-skip", "off"}, {}},
                                            {{"--pipelining", "on"}, {}},
                                            {{"--pairs", "0"}, {}},
                                            {{}, {{{"LP_NUM_THREADS", "0"}}, false}},
@@ -61,8 +61,8 @@ TEST_F(Bars32, SameMaskWithExactInsertion) {
 
 TEST_F(Bars32, SameMaskByDefaultWhereNoTexelChanges) {
   expect_same_mask({}, {{{"--context", "osmesa"}, {}},
-                        {{"--removal", "on"}, {}},
-                        {{"--unchanged-skip", "on"}, {}},
+                        {{"--removal", "off"}, {}},
+                        {{"--unchanged-skip", "off"}, {}},
                         {{"--pipelining", "on"}, {}},
                         {{"--pairs", "0"}, {}},
                         {{}, {{{"LP_NUM_THREADS", "0"}}, false}}});

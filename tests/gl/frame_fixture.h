@@ -118,7 +118,7 @@ inline Frame render_frame(const Scene& scene, const Camera& camera, const Light&
   frame.triangles_vs = frame.inputs.triangles_vs();
   frame.receivers = make_receivers(frame.gbuffer, frame.inputs);
   frame.light = make_light_point(frame.inputs.light);
-  if (std::vector<float> lengths = technique.list_lengths(); !lengths.empty())
+  if (std::vector<float> lengths = technique.list_lengths(frame.inputs); !lengths.empty())
     frame.list_lengths = flip_rows(std::move(lengths), width_px, height_px);
   frame.counts = renderer.count();
   return frame;

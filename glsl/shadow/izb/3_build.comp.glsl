@@ -2,8 +2,8 @@
 // 5.3 Creating the irregular z-buffer: each receiver goes into the list of its light-space texel. Nodes stand in a
 // preallocated screen-space grid, so that a node's address is its pixel and slot and a node needs nothing but a next pointer
 // (6.2); at one sample a pixel the receiver's eye distance stands beside it, since a walk that reads one reads the other.
-// Defines: ZCULL; SPP32, and then how it is inserted (6.1): ALONG_AXIS, BY_VIEW, BY_SAMPLES, or POOL (every texel that
-// it touches; COUNT_NODES only counts them); STRIDE: in another order, for tests.
+// Defines: ZCULL; SPP32, and then how it is inserted (6.1): COVER (texels that answer for all of it), BY_VIEW,
+// BY_SAMPLES, or POOL (every texel that it touches; COUNT_NODES only counts them); STRIDE: in another order, for tests.
 #include "shared/bindings.h"
 #include "shared/insertion.h"
 #include "shadow/izb/nodes.glsl"
@@ -23,6 +23,9 @@ layout(binding = IMAGE_NODES, NODE_FORMAT) writeonly uniform NODE_IMAGE nodes;
 layout(std140, binding = BIND_SAMPLES) uniform SampleBlock { SampleFrame samples; };
 layout(binding = UNIT_MICRO_QUAD) uniform sampler2D micro_quad_texture;
 layout(location = 0) uniform int most_nodes;
+#ifdef COVER
+layout(location = 1) uniform float dilation;  // texels
+#endif
 #endif
 #ifdef POOL
 layout(std430, binding = BIND_POOL) buffer PoolBlock { PoolCounters pool; };
@@ -39,73 +42,102 @@ uint push(ivec3 texel, uint node, float depth) {
   return imageAtomicExchange(heads, texel, node);
 }
 
+#ifdef SPP32
 #ifdef POOL
 void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
   QuadOnGrid on_grid = project_quad(light, window, quad);
-  int last = int(light.grid.x) - 1;
-  float guard = window.guard.x + 0.001;
-  ivec2 rows = quad_rows(on_grid, guard, last);
+  const int all = 0x7fff;
+  Cover cover = make_cover(on_grid, 0.5, window.guard.x + 0.001, int(light.grid.x) - 1, all);
   uint count = 0u;
-  for (int y = rows.x; y <= rows.y; ++y) {
-    ivec2 columns = quad_columns(on_grid, guard, last, y);
-    count += uint(max(columns.y - columns.x + 1, 0));
-  }
+  for (int i = 0; i < cover.rows.count; ++i)
+    count += uint(cover_row(cover, run_texel(cover.rows, i, cover.last), all).count);
   uint node = atomicAdd(pool.nodes, count) + 1u;
 #ifdef COUNT_NODES
   atomicMax(pool.largest_quad, count);
 #else
-  for (int y = rows.x; y <= rows.y; ++y) {
-    ivec2 columns = quad_columns(on_grid, guard, last, y);
-    for (int x = columns.x; x <= columns.y; ++x) {
-      uint next = push(ivec3(x, y, cascade), node, on_grid.deepest);
+  for (int i = 0; i < cover.rows.count; ++i) {
+    int row = run_texel(cover.rows, i, cover.last);
+    Run columns = cover_row(cover, row, all);
+    for (int k = 0; k < columns.count; ++k) {
+      uint next = push(ivec3(cover_texel(cover, row, columns, k), cascade), node, on_grid.deepest);
       imageStore(nodes, NODE_TEXEL(node), node_words(next, px, 0.0));
       ++node;
     }
   }
 #endif
 }
-#elif defined(SPP32)
-void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
-  QuadOnGrid on_grid = project_quad(light, window, quad);
-#ifdef BY_SAMPLES
-  int count = 32;
 #else
-  float texels = 1.0;
-  vec2 axis = longest_axis(on_grid, texels);
+void add_node(ivec2 px, int cascade, ivec2 texel, float depth, inout int slot) {
+  uint next = push(ivec3(texel, cascade), node_from_pixel(px, slot), depth);
+  imageStore(nodes, ivec3(px, slot), uvec4(next));
+  ++slot;
+}
+
+ivec2 texel_of(LightWindow window, MicroQuad quad, vec2 offset_px) {
+  return grid_texel(light, grid_position(window, micro_quad_uvd(light, quad, offset_px)));
+}
+
+#ifdef BY_SAMPLES
+void insert_samples(ivec2 px, int cascade, LightWindow window, MicroQuad quad, float depth, inout int slot) {
+  for (int i = 0; i < 32 && slot < most_nodes; ++i) {
+    ivec2 texel = texel_of(window, quad, samples.offset_px[i].xy);
+    bool known = false;
+    for (int k = 0; k < i; ++k) known = known || texel == texel_of(window, quad, samples.offset_px[k].xy);
+    if (!known) add_node(px, cascade, texel, depth, slot);
+  }
+}
+#else
+// The paper's: a row of nodes along the view ray, where the micro-quad is longest.
+void insert_row(ivec2 px, int cascade, LightWindow window, MicroQuad quad, float depth, int count, inout int slot) {
+  float steepest = max(abs(quad.tilt.x), abs(quad.tilt.y));
+  vec2 axis = steepest > 0.0 ? quad.tilt * (0.5 / steepest) : vec2(0.5, 0.0);
+  ivec2 last = ivec2(-1);
+  for (int i = 0; i < count; ++i) {
+    ivec2 texel = texel_of(window, quad, axis * ((2.0 * float(i) + 1.0) / float(count) - 1.0));
+    if (texel != last) add_node(px, cascade, texel, depth, slot);
+    last = texel;
+  }
+}
+#endif
+
 #ifdef BY_VIEW
-  // The footprint is 1 / N.V times as long as wide, along the slope of the tangent plane.
+int nodes_by_view(ivec2 px, MicroQuad quad) {
+  // The footprint is 1 / N.V times as long as wide.
   vec3 normal = normalize(octahedral_direction(texelFetch(normal_texture, px, 0).xy));
   vec3 view = is_perspective(camera) ? normalize(quad.center) : vec3(0.0, 0.0, -1.0);
-  texels = 1.0 / max(abs(dot(normal, view)), 0.0001);
-  vec2 steep = texelFetch(micro_quad_texture, px, 0).yz;
-  float most = max(abs(steep.x), abs(steep.y));
-  axis = most > 0.0 ? steep * (0.5 / most) : vec2(0.5, 0.0);
+  return clamp(int(ceil(1.0 / max(abs(dot(normal, view)), 0.0001))), 1, most_nodes);
+}
 #endif
-  int count = clamp(int(ceil(texels)), 1, most_nodes);
-#endif
-  int slot = 0;
-  ivec2 last = ivec2(-1);
-  for (int i = 0; i < count && slot < most_nodes; ++i) {
-#ifdef BY_SAMPLES
-    vec2 o = samples.offset_px[i].xy;
-#else
-    vec2 o = axis * ((2.0 * float(i) + 1.0) / float(count) - 1.0);
-#endif
-    ivec2 texel = grid_texel(light, grid_position(window, micro_quad_uvd(light, quad, o)));
-    bool known = texel == last;
-#ifdef BY_SAMPLES
-    for (int k = 0; k < i; ++k)
-      if (texel == grid_texel(light, grid_position(window, micro_quad_uvd(light, quad, samples.offset_px[k].xy))))
-        known = true;
-#endif
-    if (known) continue;
-    last = texel;
-    uint next = push(ivec3(texel, cascade), node_from_pixel(px, slot), on_grid.deepest);
-    imageStore(nodes, ivec3(px, slot), uvec4(next));
-    ++slot;
+
+#ifdef COVER
+void insert_cover(ivec2 px, int cascade, LightWindow window, MicroQuad quad, QuadOnGrid on_grid, inout int slot) {
+  Cover cover = make_cover(on_grid, dilation, window.guard.x + 0.001, int(light.grid.x) - 1, most_nodes);
+  if (cover.rows.count < cover.rows.needed) {
+    insert_row(px, cascade, window, quad, on_grid.deepest, most_nodes, slot);
+    return;
   }
+  for (int i = 0; i < cover.rows.count; ++i) {
+    int row = run_texel(cover.rows, i, cover.last);
+    Run columns = cover_row(cover, row, (most_nodes - slot) / (cover.rows.count - i));
+    for (int k = 0; k < columns.count; ++k)
+      add_node(px, cascade, cover_texel(cover, row, columns, k), on_grid.deepest, slot);
+  }
+}
+#endif
+
+void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
+  QuadOnGrid on_grid = project_quad(light, window, quad);
+  int slot = 0;
+#if defined(BY_SAMPLES)
+  insert_samples(px, cascade, window, quad, on_grid.deepest, slot);
+#elif defined(BY_VIEW)
+  insert_row(px, cascade, window, quad, on_grid.deepest, nodes_by_view(px, quad), slot);
+#else
+  insert_cover(px, cascade, window, quad, on_grid, slot);
+#endif
   for (; slot < most_nodes; ++slot) imageStore(nodes, ivec3(px, slot), uvec4(not_a_node(class_receiver)));
 }
+#endif
 #endif
 
 void main() {

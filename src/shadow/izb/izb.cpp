@@ -88,7 +88,10 @@ void Izb::build(const FrameInputs& in) {
     glBindImageTexture(IMAGE_FURTHEST, furthest_.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
   }
   programs_[IzbProgram::build].use();
-  if (built_.many_samples() && !built_.pool()) glUniform1i(0, built_.slots());
+  if (built_.many_samples() && !built_.pool()) {
+    glUniform1i(0, built_.slots());
+    if (built_.insertion == "approximate") glUniform1f(1, static_cast<float>(built_.dilation()));
+  }
   programs_[IzbProgram::build].dispatch(in.width_px, in.height_px, 16, 16);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
@@ -222,8 +225,7 @@ void Izb::visibility(const FrameInputs& in, Visibility& out, const Pass& pass) {
 }
 
 shared::Counters Izb::visibility_counted(const FrameInputs& in, Visibility& out, const Pass& pass) {
-  // Removal leaves shorter lists behind.
-  if (built_.removal) build(in);
+  restore_lists(in);
   visibility(in, out, pass);
   return counters_.read<shared::Counters>(1)[0];
 }

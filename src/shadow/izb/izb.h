@@ -35,12 +35,12 @@ class Izb final : public Technique {
   Counts count(const FrameInputs& in, Visibility& out) override;
   Counts memory() const override;
   gpu::Plan memory_needed(int width_px, int height_px) const override;
-  std::vector<float> list_lengths() const override;
-  std::vector<uint64_t> list_histogram() const override;
+  std::vector<float> list_lengths(const FrameInputs& in) override;
+  std::vector<uint64_t> list_histogram(const FrameInputs& in) override;
   std::vector<gpu::ProgramSpec> program_specs() const override { return izb_program_specs(); }
 
-  /// Reads back what `build` and `zcull` left of the last frame; with removal the lists are what `visibility` left.
-  /// Throws std::logic_error where a node stands in two lists.
+  /// Reads back what `build` and `zcull` left of the last frame; with removal the lists are what `visibility` left,
+  /// unless count() or list_lengths() came after it. Throws std::logic_error where a node stands in two lists.
   IzbInternals internals() const;
   /// What options() is bound to, and what is no option.
   IzbSettings& settings() { return settings_; }
@@ -63,6 +63,7 @@ class Izb final : public Technique {
   void draw_by_hardware(const FrameInputs& in, IzbProgram program);
   shared::Counters visibility_counted(const FrameInputs& in, Visibility& out, const Pass& pass);
 
+  void restore_lists(const FrameInputs& in);
   IzbLists read_lists() const;
 
   IzbSettings settings_, built_;  ///< as the options say; as the programs and textures were made

@@ -24,8 +24,7 @@ Counts Izb::count(const FrameInputs& in, Visibility& out) {
   const shared::Counters all = visibility_counted(in, out, {IzbProgram::visibility_counted_all, false});
   const shared::Counters culled =
       built_.zcull ? visibility_counted(in, out, {IzbProgram::visibility_counted, true}) : all;
-  if (built_.removal) build(in);
-  const std::vector<uint64_t> histogram = list_histogram();
+  const std::vector<uint64_t> histogram = list_histogram(in);
   uint64_t nodes = 0, lists = 0;
   for (size_t length = 1; length < histogram.size(); ++length) {
     nodes += histogram[length] * length;
@@ -48,6 +47,11 @@ std::string Izb::fault() const {
   if (counters_.read<shared::Counters>(1)[0].unfinished == 0) return {};
   return "a list of the light-space grid is longer than this driver's loops may run, so that shadows are missing: "
          "take a larger --grid or more --cascades";
+}
+
+/// Removal leaves shorter lists behind.
+void Izb::restore_lists(const FrameInputs& in) {
+  if (built_.removal) build(in);
 }
 
 IzbLists Izb::read_lists() const {
@@ -95,7 +99,8 @@ IzbInternals Izb::internals() const {
   return all;
 }
 
-std::vector<float> Izb::list_lengths() const {
+std::vector<float> Izb::list_lengths(const FrameInputs& in) {
+  restore_lists(in);
   const IzbLists lists = read_lists();
   std::vector<float> lengths(size_t(width_px_) * height_px_, 0.0f);
   for (size_t i = 0; i < lists.count(); ++i)
@@ -107,7 +112,8 @@ std::vector<float> Izb::list_lengths() const {
   return lengths;
 }
 
-std::vector<uint64_t> Izb::list_histogram() const {
+std::vector<uint64_t> Izb::list_histogram(const FrameInputs& in) {
+  restore_lists(in);
   const IzbLists lists = read_lists();
   std::vector<uint64_t> histogram;
   for (size_t i = 0; i < lists.count(); ++i) {

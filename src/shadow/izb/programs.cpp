@@ -65,7 +65,7 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
     define(s.zcull, "ZCULL");
     define(s.many_samples(), "SPP32");
     if (s.many_samples())
-      define(true, s.insertion == "approximate" ? "ALONG_AXIS"
+      define(true, s.insertion == "approximate" ? "COVER"
                    : s.insertion == "nv"        ? "BY_VIEW"
                    : s.insertion == "samples"   ? "BY_SAMPLES"
                                                 : "POOL");

@@ -15,8 +15,9 @@ OptionSet IzbSettings::options() {
   set.choice("lut", lut, {"32", "64", "128"}, "side of the look-up table; the paper's is 32");
   set.choice(
       "insertion", insertion, {"approximate", "nv", "samples", "exact"},
-      "at 32 samples, where a pixel's nodes go (6.1): a row along its longest axis in light space, the same counted "
-      "by N.V alone, the texels of its samples, or every texel that its micro-quad touches");
+      "at 32 samples, where a pixel's nodes go (6.1): as few texels along its long axis as answer for all of its "
+      "micro-quad, a row along the view ray counted by N.V alone, the texels of its samples, or every texel that its "
+      "micro-quad touches");
   set.integer("nodes", nodes, 1, 8, "nodes", "at most so many a pixel, but for exact insertion (6.1)");
   set.number("dilation", dilation_texels, 0.5, 4.0, "texels",
              "by which triangles grow in light space (6.1); exact insertion needs and takes 0.5");

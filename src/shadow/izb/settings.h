@@ -17,7 +17,7 @@ struct IzbSettings {
   int grid = 2048, nodes = 8, cascades = 1;
   double dilation_texels = 1.0;
   bool zcull = true, zcull_pyramid = true, nl_cull = true;
-  bool removal = false, unchanged_skip = false, pipelining = false;
+  bool removal = true, unchanged_skip = true, pipelining = false;
   int pair_capacity = by_size;
   /// No option, for tests: the order of insertion is n * stride modulo the number of pixels, to which the stride is
   /// coprime. Nothing but the order within the lists may depend on it.
