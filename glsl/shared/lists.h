@@ -23,9 +23,6 @@ const int largest_picture_px = 16384;  // along one side
 const int pool_width = 16384;
 SHARED ivec2 pool_texel(uint node) { return ivec2(int(node & 16383u), int(node >> 14)); }
 
-// What stands in the grid of nodes for a pixel that is in no list: above every node.
-SHARED uint not_a_node(uint pixel_class) { return 0xfffffff0u + pixel_class; }
-
 struct PoolCounters {
   uint nodes;
   uint largest_quad;  // texels that one micro-quad touches

@@ -135,7 +135,6 @@ void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
 #else
   insert_cover(px, cascade, window, quad, on_grid, slot);
 #endif
-  for (; slot < most_nodes; ++slot) imageStore(nodes, ivec3(px, slot), uvec4(not_a_node(class_receiver)));
 }
 #endif
 #endif
@@ -150,17 +149,7 @@ void main() {
   float t = texelFetch(eye_distance_texture, px, 0).x;
   vec3 p = receiver_point(camera, vec2(px) + 0.5, t);
   vec3 normal = octahedral_direction(texelFetch(normal_texture, px, 0).xy);
-  uint pixel_class = t > 0.0 ? receiver_class(light, p, normal) : class_sky;
-  if (pixel_class != class_receiver) {
-#ifndef POOL
-#ifdef SPP32
-    for (int slot = 0; slot < most_nodes; ++slot) imageStore(nodes, ivec3(px, slot), uvec4(not_a_node(pixel_class)));
-#else
-    imageStore(nodes, px, uvec4(not_a_node(pixel_class)));
-#endif
-#endif
-    return;
-  }
+  if (!(t > 0.0) || receiver_class(light, p, normal) != class_receiver) return;
 
   int cascade = cascade_of(range, int(light.grid.y), t);
   LightWindow window = windows[cascade];
