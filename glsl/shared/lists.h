@@ -26,12 +26,13 @@ SHARED ivec2 pool_texel(uint node) { return ivec2(int(node & 16383u), int(node >
 struct PoolCounters {
   uint nodes;
   uint largest_quad;  // texels that one micro-quad touches
-  uint unused0;
-  uint unused1;
+  uint carries;       // of `nodes`
+  uint unused;
 };
 
-// Some software renderers end every loop after 65535 rounds, all loops of an invocation taken together.
-const uint most_texels_a_quad = 49152u;
+// Some software renderers end all loops of an invocation after 65535 rounds together: so many texels of a micro-quad are
+// inserted at once, with twice the rows of the largest grid beside them.
+const int texels_a_dispatch = 32000;
 
 SHARED_END
 #endif

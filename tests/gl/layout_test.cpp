@@ -93,7 +93,7 @@ const std::map<std::string, Block> blocks{
      {sizeof(PoolCounters),
       false,
       {FIELD("pool", PoolCounters, nodes), FIELD("pool", PoolCounters, largest_quad),
-       FIELD("pool", PoolCounters, unused0), FIELD("pool", PoolCounters, unused1)}}},
+       FIELD("pool", PoolCounters, carries), FIELD("pool", PoolCounters, unused)}}},
     {"CounterBlock",
      {sizeof(Counters),
       false,

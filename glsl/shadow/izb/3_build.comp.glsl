@@ -22,7 +22,11 @@ layout(binding = IMAGE_NODES, NODE_FORMAT) writeonly uniform NODE_IMAGE nodes;
 #ifdef SPP32
 layout(std140, binding = BIND_SAMPLES) uniform SampleBlock { SampleFrame samples; };
 layout(binding = UNIT_MICRO_QUAD) uniform sampler2D micro_quad_texture;
+#ifdef POOL
+layout(location = 0) uniform ivec2 part;
+#else
 layout(location = 0) uniform int most_nodes;
+#endif
 #ifdef COVER
 layout(location = 1) uniform float dilation;  // texels
 #endif
@@ -44,24 +48,38 @@ uint push(ivec3 texel, uint node, float depth) {
 
 #ifdef SPP32
 #ifdef POOL
+// The micro-quad's texels from part.x on, but for those from part.y on.
 void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
   QuadOnGrid on_grid = project_quad(light, window, quad);
   const int all = 0x7fff;
   Cover cover = make_cover(on_grid, 0.5, window.guard.x + 0.001, int(light.grid.x) - 1, all);
-  uint count = 0u;
+  int count = 0;
   for (int i = 0; i < cover.rows.count; ++i)
-    count += uint(cover_row(cover, run_texel(cover.rows, i, cover.last), all).count);
-  uint node = atomicAdd(pool.nodes, count) + 1u;
+    count += cover_row(cover, run_texel(cover.rows, i, cover.last), all).count;
 #ifdef COUNT_NODES
-  atomicMax(pool.largest_quad, count);
+  uint before = atomicAdd(pool.nodes, uint(count));
+  if (before + uint(count) < before) atomicAdd(pool.carries, 1u);
+  atomicMax(pool.largest_quad, uint(count));
 #else
-  for (int i = 0; i < cover.rows.count; ++i) {
+  int end = min(count, part.y);
+  if (end <= part.x) return;
+  uint node = atomicAdd(pool.nodes, uint(end - part.x)) + 1u;
+  // One loop, so that its rounds are at most its own rows and texels, whatever the other lanes' rows are like.
+  int i = 0, first = 0, k = 0;  // of the row: number, texels before it, next texel
+  while (first + k < end) {
     int row = run_texel(cover.rows, i, cover.last);
     Run columns = cover_row(cover, row, all);
-    for (int k = 0; k < columns.count; ++k) {
+    k = max(k, part.x - first);
+    if (k < columns.count) {
       uint next = push(ivec3(cover_texel(cover, row, columns, k), cascade), node, on_grid.deepest);
       imageStore(nodes, NODE_TEXEL(node), node_words(next, px, 0.0));
       ++node;
+      ++k;
+    }
+    if (k >= columns.count) {
+      first += columns.count;
+      ++i;
+      k = 0;
     }
   }
 #endif

@@ -79,7 +79,7 @@ void Izb::render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timer
 }
 
 void Izb::build(const FrameInputs& in) {
-  if (built_.pool()) count_pool(in);
+  const int texels_a_quad = built_.pool() ? count_pool(in) : 0;
   heads_.clear_uint(shared::no_node);  // a second build over old heads would close the lists into rings
   glBindImageTexture(IMAGE_HEADS, heads_.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
   glBindImageTexture(IMAGE_NODES, nodes_.name(), 0, GL_TRUE, 0, GL_WRITE_ONLY, nodes_.format());
@@ -92,30 +92,30 @@ void Izb::build(const FrameInputs& in) {
     glUniform1i(0, built_.slots());
     if (built_.insertion == "approximate") glUniform1f(1, static_cast<float>(built_.dilation()));
   }
-  programs_[IzbProgram::build].dispatch(in.width_px, in.height_px, 16, 16);
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  for (int first = 0; first == 0 || first < texels_a_quad; first += shared::texels_a_dispatch) {
+    if (built_.pool()) glUniform2i(0, first, first + shared::texels_a_dispatch);
+    programs_[IzbProgram::build].dispatch(in.width_px, in.height_px, 16, 16);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+  }
 }
 
-// Exact insertion is never truncated: the nodes are counted, and room is made where there is too little.
-void Izb::count_pool(const FrameInputs& in) {
+// Exact insertion is never truncated: the nodes are counted, and room is made where there is too little. Returns the
+// texels of the micro-quad that touches most.
+int Izb::count_pool(const FrameInputs& in) {
   pool_counter_.fill(0);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_POOL, pool_counter_.name());
   programs_[IzbProgram::count_nodes].dispatch(in.width_px, in.height_px, 16, 16);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   const shared::PoolCounters counted = pool_counter_.read<shared::PoolCounters>(1)[0];
-  const uint32_t nodes = counted.nodes, largest_quad = counted.largest_quad;
-  if (largest_quad > shared::most_texels_a_quad)
-    fail(
-        "exact insertion: one micro-quad touches {} texels of the light-space grid, and {} is the most: take a smaller "
-        "--grid or fewer --cascades",
-        largest_quad, shared::most_texels_a_quad);
-  const int rows = static_cast<int>(nodes / shared::pool_width) + 1;
-  if (rows > shared::pool_width)
-    fail("exact insertion needs {} nodes; {} is the most: take a smaller --grid or --size", nodes,
+  const uint64_t nodes = counted.nodes + (uint64_t{counted.carries} << 32);
+  if (nodes / shared::pool_width + 1 > shared::pool_width)
+    fail("exact insertion needs {} nodes; {} is the most: take a smaller --grid or --size, or fewer --cascades", nodes,
          int64_t(shared::pool_width) * shared::pool_width - 1);
+  const int rows = static_cast<int>(nodes / shared::pool_width) + 1;
   if (rows > nodes_.height_px()) grow_pool(rows);
   pool_counter_.fill(0);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  return static_cast<int>(counted.largest_quad);
 }
 
 void Izb::zcull() {

@@ -53,7 +53,7 @@ class Izb final : public Technique {
   };
 
   void build(const FrameInputs& in);
-  void count_pool(const FrameInputs& in);
+  int count_pool(const FrameInputs& in);
   void grow_pool(int rows);
   void zcull();
   void pyramid();
