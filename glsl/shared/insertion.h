@@ -117,6 +117,7 @@ struct Cover {
   float reach;
   float guard;  // texels by which points may be off
   int last;
+  float long_side;  // texels
   Run rows;
 };
 
@@ -139,6 +140,7 @@ SHARED Cover make_cover(IN(QuadOnGrid) q, float reach, float guard, int last, in
   c.reach = reach;
   c.guard = guard;
   c.last = last;
+  c.long_side = max(high.x - low.x, high.y - low.y);
   c.rows = make_run((c.exchanged ? low.x : low.y) - guard, (c.exchanged ? high.x : high.y) + guard, reach, last, most);
   return c;
 }

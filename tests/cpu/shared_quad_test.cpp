@@ -215,8 +215,8 @@ struct OnGrid {
     const glm::vec3 at = shared::light_uvd(light, shared::light_position(light, quad.center));
     const float scale = float(random.uniform(0.05, 20.0)) / quad.extent;
     const float side = float(light.grid.x);
-    window.window =
-        glm::vec4(at.x - float(random.uniform(0.2, 0.8)) * side / scale, at.y - 0.5f * side / scale, scale, scale);
+    window.window = glm::vec4(at.x - float(random.uniform(0.0, 1.0)) * side / scale,
+                              at.y - float(random.uniform(0.0, 1.0)) * side / scale, scale, scale);
     window.guard.x = shared::quad_uv_error(light, quad, at) * scale + 8.0f * shared::unit_roundoff * side;
     corners = shared::project_quad(light, window, quad);
     last = int(light.grid.x) - 1;

@@ -66,7 +66,7 @@ void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
   uint node = atomicAdd(pool.nodes, uint(end - part.x)) + 1u;
   // One loop, so that its rounds are at most its own rows and texels, whatever the other lanes' rows are like.
   int i = 0, first = 0, k = 0;  // of the row: number, texels before it, next texel
-  while (first + k < end) {
+  while (i < cover.rows.count && first + k < end) {
     int row = run_texel(cover.rows, i, cover.last);
     Run columns = cover_row(cover, row, all);
     k = max(k, part.x - first);
@@ -105,10 +105,15 @@ void insert_samples(ivec2 px, int cascade, LightWindow window, MicroQuad quad, f
   }
 }
 #else
-// The paper's: a row of nodes along the view ray, where the micro-quad is longest.
-void insert_row(ivec2 px, int cascade, LightWindow window, MicroQuad quad, float depth, int count, inout int slot) {
+// Half the micro-quad along the view ray, as a sample offset.
+vec2 view_axis(MicroQuad quad) {
   float steepest = max(abs(quad.tilt.x), abs(quad.tilt.y));
-  vec2 axis = steepest > 0.0 ? quad.tilt * (0.5 / steepest) : vec2(0.5, 0.0);
+  return steepest > 0.0 ? quad.tilt * (0.5 / steepest) : vec2(0.5, 0.0);
+}
+
+// The paper's: a row of nodes along the view ray.
+void insert_row(ivec2 px, int cascade, LightWindow window, MicroQuad quad, float depth, int count, inout int slot) {
+  vec2 axis = view_axis(quad);
   ivec2 last = ivec2(-1);
   for (int i = 0; i < count; ++i) {
     ivec2 texel = texel_of(window, quad, axis * ((2.0 * float(i) + 1.0) / float(count) - 1.0));
@@ -130,13 +135,17 @@ int nodes_by_view(ivec2 px, MicroQuad quad) {
 #ifdef COVER
 void insert_cover(ivec2 px, int cascade, LightWindow window, MicroQuad quad, QuadOnGrid on_grid, inout int slot) {
   Cover cover = make_cover(on_grid, dilation, window.guard.x + 0.001, int(light.grid.x) - 1, most_nodes);
-  if (cover.rows.count < cover.rows.needed) {
+  // Too long for it: the paper's row samples better, where it runs along the long axis.
+  vec2 axis = view_axis(quad);
+  vec2 ends = abs(grid_position(window, micro_quad_uvd(light, quad, axis)).xy -
+                  grid_position(window, micro_quad_uvd(light, quad, -axis)).xy);
+  if (cover.rows.count < cover.rows.needed && max(ends.x, ends.y) > 0.5 * cover.long_side) {
     insert_row(px, cascade, window, quad, on_grid.deepest, most_nodes, slot);
     return;
   }
   for (int i = 0; i < cover.rows.count; ++i) {
     int row = run_texel(cover.rows, i, cover.last);
-    Run columns = cover_row(cover, row, (most_nodes - slot) / (cover.rows.count - i));
+    Run columns = cover_row(cover, row, most_nodes - slot - (cover.rows.count - 1 - i));  // one for each row to come
     for (int k = 0; k < columns.count; ++k)
       add_node(px, cascade, cover_texel(cover, row, columns, k), on_grid.deepest, slot);
   }

@@ -40,7 +40,7 @@ class Izb final : public Technique {
   std::vector<gpu::ProgramSpec> program_specs() const override { return izb_program_specs(); }
 
   /// Reads back what `build` and `zcull` left of the last frame; with removal the lists are what `visibility` left,
-  /// unless count() or list_lengths() came after it. Throws std::logic_error where a node stands in two lists.
+  /// unless count() or a list_ function came after it. Throws std::logic_error where a node stands in two lists.
   IzbInternals internals() const;
   /// What options() is bound to, and what is no option.
   IzbSettings& settings() { return settings_; }

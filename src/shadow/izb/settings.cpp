@@ -56,6 +56,7 @@ void IzbSettings::apply(const std::string& preset) {
   if (preset == "paper") {  // table 1: four cascades of 2048 x 2048, every optimisation of section 6
     sampling = {"32", "halton"};
     lut = "32";
+    insertion = "nv";
     cascades = 4;
     cascade_pass = "multiple";
     removal = unchanged_skip = pipelining = true;
