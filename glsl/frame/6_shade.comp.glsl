@@ -1,5 +1,5 @@
 #version 450 core
-// 5.6 Final render: Phong shading from the G-buffer, modulated by the visibility mask.
+// 5.6 Final render: Phong shading from the G-buffer, modulated by the visibility mask. Light after light is added.
 #include "shared/bindings.h"
 #include "shared/light.h"
 #include "shared/shade.h"
@@ -9,12 +9,14 @@ layout(local_size_x = 16, local_size_y = 16) in;
 layout(std140, binding = BIND_CAMERA) uniform CameraBlock { CameraFrame camera; };
 layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
 layout(std140, binding = BIND_SHADE) uniform ShadeBlock { ShadeFrame shade; };
+layout(std140, binding = BIND_EXPOSURE) uniform ExposureBlock { Exposure exposure; };
 layout(binding = UNIT_EYE_DISTANCE) uniform sampler2D eye_distance_texture;
 layout(binding = UNIT_NORMAL) uniform sampler2D normal_texture;
 layout(binding = UNIT_SHADING_NORMAL) uniform sampler2D shading_normal_texture;
 layout(binding = UNIT_ALBEDO) uniform sampler2D albedo_texture;
 layout(binding = UNIT_MASK) uniform usampler2D mask_texture;
-layout(binding = IMAGE_PICTURE, rgba16f) writeonly uniform image2D picture;
+layout(binding = IMAGE_PICTURE, rgba16f) uniform image2D picture;
+layout(location = 0) uniform bool first;  // of the lights: with sky and ambient light
 
 vec3 sky(vec3 direction) {
   float height = dot(direction, shade.up_vs.xyz);
@@ -30,21 +32,23 @@ vec3 shaded(ivec2 px, float t, vec3 p, vec3 view) {
     shading_normal = octahedral_decode(2.0 * texelFetch(shading_normal_texture, px, 0).xy - 1.0);
     if (dot(shading_normal, normal) < 0.0) shading_normal = -shading_normal;
   }
-  float up = 0.5 + 0.5 * dot(shading_normal, shade.up_vs.xyz);
-  vec3 color = albedo.rgb * shade.up_vs.w * mix(shade.ground.rgb, shade.sky_zenith.rgb, up);
+  vec3 color = vec3(0.0);
+  if (first) {
+    float up = 0.5 + 0.5 * dot(shading_normal, shade.up_vs.xyz);
+    color = albedo.rgb * shade.up_vs.w * mix(shade.ground.rgb, shade.sky_zenith.rgb, up);
+  }
 
   // The geometric normal decides whether light arrives at all, as for the IZB (6.5).
   vec3 to_light = is_positional(light) ? normalize(light.origin.xyz - p) : light.to_light.xyz;
   LightFrame culling = light;
   culling.color.w = 1.0;
   if (receiver_class(culling, p, normal) != class_receiver) return color;
-  float cone = is_positional(light)
-      ? smoothstep(shade.cone.y, max(shade.cone.x, shade.cone.y + 1e-4), dot(light.axis_z.xyz, -to_light)) : 1.0;
+  float arriving = arriving_light(light, shade, p) * exposure.scale.x;
   float visibility = 1.0 - float(bitCount(texelFetch(mask_texture, px, 0).x)) * (1.0 / 32.0);
   float diffuse = max(dot(shading_normal, to_light), 0.0);
   vec3 halfway = normalize(to_light - view);
   float specular = diffuse > 0.0 ? 0.04 * pow(max(dot(shading_normal, halfway), 0.0), 32.0) : 0.0;
-  return color + light.color.rgb * (cone * visibility) * (albedo.rgb * diffuse + specular);
+  return color + light.color.rgb * (arriving * visibility) * (albedo.rgb * diffuse + specular);
 }
 
 void main() {
@@ -53,5 +57,7 @@ void main() {
   float t = texelFetch(eye_distance_texture, px, 0).x;
   vec3 p = receiver_point(camera, vec2(px) + 0.5, t > 0.0 ? t : 1.0);
   vec3 view = is_perspective(camera) ? normalize(p) : vec3(0.0, 0.0, -1.0);
-  imageStore(picture, px, vec4(t > 0.0 ? shaded(px, t, p, view) : sky(view), 1.0));
+  vec3 color = t > 0.0 ? shaded(px, t, p, view) : first ? sky(view) : vec3(0.0);
+  if (!first) color += imageLoad(picture, px).rgb;
+  imageStore(picture, px, vec4(min(color, 65000.0), 1.0));  // a lamp at a surface is brighter than half floats go
 }

@@ -10,6 +10,7 @@
 #define BIND_SAMPLES 3
 #define BIND_WINDOWS 4
 #define BIND_CASCADE_ENDS 5
+#define BIND_EXPOSURE 6
 
 // Storage blocks.
 #define BIND_INSTANCES 0
@@ -22,6 +23,8 @@
 #define BIND_PAIRS 7
 #define BIND_CASCADES 8
 #define BIND_POOL 9
+#define BIND_METER 10
+#define BIND_EXPOSED 11
 
 // Texture units.
 #define UNIT_BASE_COLOR 0

@@ -48,6 +48,14 @@ SHARED float float_from_ordered(uint ordered) {
   return uintBitsToFloat((ordered & 0x80000000u) != 0u ? ordered & 0x7fffffffu : ~ordered);
 }
 
+// How fine a grid is for so many receivers. More texels would only be visited by more triangles: a window that holds few is
+// small, and so are its texels.
+SHARED float side_in_use(IN(LightFrame) light, uint receivers) {
+  float side = float(light.grid.x);
+  float density = light.axis_y.w;
+  return density > 0.0f ? min(side, max(16.0f, ceil(sqrt(density * float(receivers))))) : side;
+}
+
 // The receivers fill all but one texel at each border; a window without extent gets one from the values' own rounding.
 SHARED LightWindow make_window(IN(LightFrame) light, IN(ReceiverBounds) b) {
   LightWindow w;
@@ -59,7 +67,7 @@ SHARED LightWindow make_window(IN(LightFrame) light, IN(ReceiverBounds) b) {
   vec3 high = vec3(float_from_ordered(b.high.x), float_from_ordered(b.high.y), float_from_ordered(b.high.z));
   float uv_slack = float_from_ordered(b.slack.x);
   float d_slack = float_from_ordered(b.slack.y);
-  float side = float(light.grid.x);
+  float side = side_in_use(light, b.slack.z);
   vec3 tiny = 0.000001f * max(abs(low), abs(high)) + vec3(1.0e-30f);
   vec3 extent = max(high - low, tiny);
   vec2 scale = vec2((side - 2.0f) / extent.x, (side - 2.0f) / extent.y);
@@ -68,13 +76,16 @@ SHARED LightWindow make_window(IN(LightFrame) light, IN(ReceiverBounds) b) {
   float depth_offset = 0.25f - low.z * depth_scale;
   float depth_guard = d_slack * depth_scale + 8.0f * unit_roundoff * (1.0f + abs(depth_offset));
   w.depth = vec4(depth_offset, depth_scale, depth_guard, 0.0f);
-  w.guard = vec4(uv_slack * max(scale.x, scale.y) + 8.0f * unit_roundoff * side, 1.0f, 0.0f, 0.0f);
+  w.guard = vec4(uv_slack * max(scale.x, scale.y) + 8.0f * unit_roundoff * side, side, 0.0f, 0.0f);
   return w;
 }
 
+// The last texel of a row or a column.
+SHARED int last_texel(IN(LightWindow) window) { return int(window.guard.y) - 1; }
+
 // The texel of a grid position.
-SHARED ivec2 grid_texel(IN(LightFrame) light, IN(vec3) grid) {
-  int last = int(light.grid.x) - 1;
+SHARED ivec2 grid_texel(IN(LightWindow) window, IN(vec3) grid) {
+  int last = last_texel(window);
   return ivec2(clamp(int(floor(grid.x)), 0, last), clamp(int(floor(grid.y)), 0, last));
 }
 

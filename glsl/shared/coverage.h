@@ -82,7 +82,7 @@ SHARED QuadPlanes quad_planes(IN(CameraFrame) camera, IN(LightFrame) light, IN(v
   dvec3 w = is_positional(light) ? dvec3(vec3(light.origin)) - dvec3(a) : dvec3(vec3(light.to_light));
   PRECISE double side = (n.x * w.x + n.y * w.y) + n.z * w.z;
   double sign = side > 0.0 ? 1.0 : -1.0;
-  planes.casts = side != 0.0;
+  planes.casts = side != 0.0 && !holds_light(light, a, b, c);
   planes.edge0 = quad_edge(light, a, b, p, along_x, along_y, slope, sign);
   planes.edge1 = quad_edge(light, b, c, p, along_x, along_y, slope, sign);
   planes.edge2 = quad_edge(light, c, a, p, along_x, along_y, slope, sign);

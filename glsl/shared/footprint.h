@@ -52,7 +52,7 @@ SHARED Footprint make_footprint(IN(LightFrame) light, IN(LightWindow) window, IN
   f.p1 = vec3(0.0f);
   f.p2 = vec3(0.0f);
   f.p3 = vec3(0.0f);
-  float side = float(light.grid.x);
+  float side = window.guard.y;
   // A triangle with two equal vertices casts nothing; nor does any before there is a receiver.
   if (a == b || b == c || c == a || window.guard.y == 0.0f) return f;
 
@@ -69,7 +69,7 @@ SHARED Footprint make_footprint(IN(LightFrame) light, IN(LightWindow) window, IN
   }
   if (crosses) {
     float margin = 2.0f + window.guard.x + half_texel;
-    vec4 front = front_box(light, window, la, lb, lc, z_error, margin);
+    vec4 front = front_box(window, la, lb, lc, z_error, margin);
     f.box = vec4(max(front.x - margin, -1.0f), max(front.y - margin, -1.0f), min(front.z + margin, side + 1.0f),
                  min(front.w + margin, side + 1.0f));
     if (f.box.x >= f.box.z || f.box.y >= f.box.w) return f;

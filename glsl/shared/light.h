@@ -7,22 +7,24 @@ SHARED_BEGIN
 
 // What the CPU knows of the light. Light space: x, y across, z along the light's way (depth grows away from the light).
 struct LightFrame {
-  vec4 axis_x;    // rows of light_from_view, unit length
-  vec4 axis_y;
+  vec4 axis_x;    // rows of light_from_view, unit length; w: see holds_light
+  vec4 axis_y;    // w: texels that a grid uses for each receiver, 0: all of them
   vec4 axis_z;
-  vec4 origin;    // xyz: position of a spot light, 0 for a directional one; w: 1 positional, 0 directional
-  vec4 to_light;  // directional: unit vector towards the light; w: cosine of the spot's half-angle
+  vec4 origin;    // xyz: position of a spot or point light, 0 for a directional one; w: 1 positional, 0 directional
+  vec4 to_light;  // directional: unit vector towards the light; w: cosine of the spot's half-angle, -1: no cone
   vec4 color;     // linear; w: 1 if pixels with N.L <= 0 stay out of the IZB (6.5)
-  uvec4 grid;     // x: texels along one side of the light-space grid, y: cascades, z: samples a pixel
+  uvec4 grid;     // x: texels along one side of the light-space grid, y: cascades, z: faces, 1 or cube_faces
 };
 
 const int max_cascades = 8;
+const int cube_faces = 6;
+const int max_layers = 48;  // of the grid: for each face its cascades
 
-// What the bounds stage finds: the tight window over the receivers, one a cascade.
+// What the bounds stage finds: the tight window over the receivers, one a layer.
 struct LightWindow {
   vec4 window;  // grid position = (uv - xy) * zw
   vec4 depth;   // depth = x + y * d, in [1/4, 3/4] over the receivers; z: guard for its rounding error
-  vec4 guard;   // x: texels by which a receiver's grid position may be wrong; y: 1 if there is any receiver, else 0
+  vec4 guard;   // x: texels by which a receiver's grid position may be wrong; y: texels in use along one side, 0: no receiver
 };
 
 const float unit_roundoff = 5.9604644775390625e-8f;  // u = 2^-24
@@ -46,6 +48,55 @@ SHARED vec3 light_position(IN(LightFrame) light, IN(vec3) p_vs) {
   vec3 p = p_vs - vec3(light.origin);
   return vec3(dot(vec3(light.axis_x), p), dot(vec3(light.axis_y), p), dot(vec3(light.axis_z), p));
 }
+
+// ---- the cube around a light whose receivers lie all around it --------------------------------------------------------
+
+// Light space turned so that face f looks along z. Coordinates are exchanged and change sign, so every face has the very same
+// floats.
+SHARED vec3 on_face(IN(vec3) p_ls, int f) {
+  if (f == 1) return vec3(-p_ls.x, p_ls.y, -p_ls.z);
+  if (f == 2) return vec3(-p_ls.z, p_ls.y, p_ls.x);
+  if (f == 3) return vec3(p_ls.z, p_ls.y, -p_ls.x);
+  if (f == 4) return vec3(p_ls.x, -p_ls.z, p_ls.y);
+  if (f == 5) return vec3(p_ls.x, p_ls.z, -p_ls.y);
+  return p_ls;
+}
+
+// The light with the axes of that face.
+SHARED LightFrame light_face(IN(LightFrame) light, int f) {
+  LightFrame face = light;
+  if (f == 1) {
+    face.axis_x = -light.axis_x;
+    face.axis_z = -light.axis_z;
+  }
+  if (f == 2) {
+    face.axis_x = -light.axis_z;
+    face.axis_z = light.axis_x;
+  }
+  if (f == 3) {
+    face.axis_x = light.axis_z;
+    face.axis_z = -light.axis_x;
+  }
+  if (f == 4) {
+    face.axis_y = -light.axis_z;
+    face.axis_z = light.axis_y;
+  }
+  if (f == 5) {
+    face.axis_y = light.axis_z;
+    face.axis_z = -light.axis_y;
+  }
+  return face;
+}
+
+// The face through which the light sees the point.
+SHARED int face_of(IN(vec3) p_ls) {
+  vec3 size = abs(p_ls);
+  if (size.z >= size.x && size.z >= size.y) return p_ls.z < 0.0f ? 1 : 0;
+  if (size.x >= size.y) return p_ls.x < 0.0f ? 3 : 2;
+  return p_ls.y < 0.0f ? 5 : 4;
+}
+
+// ---- the grid -----------------------------------------------------------------------------------------------------------
 
 // (u, v, d): where a light-space point falls. d is affine over the grid and monotone in depth: the depth itself
 // (directional) or -1/depth (spot; z > 0 only).
@@ -92,7 +143,7 @@ SHARED uint receiver_class(IN(LightFrame) light, IN(vec3) p_vs, IN(vec3) normal_
     PRECISE float length2 = (to_light.x * to_light.x + to_light.y * to_light.y) + to_light.z * to_light.z;
     PRECISE float along2 = along * along;
     PRECISE float limit2 = (light.to_light.w * light.to_light.w) * length2;
-    if (!(along > 0.0f) || along2 < limit2) return class_outside_cone;
+    if (light.to_light.w >= 0.0f && (!(along > 0.0f) || along2 < limit2)) return class_outside_cone;
   }
   PRECISE float n_dot_l = (normal_vs.x * to_light.x + normal_vs.y * to_light.y) + normal_vs.z * to_light.z;
   if (light.color.w != 0.0f && n_dot_l <= 0.0f) return class_culled;

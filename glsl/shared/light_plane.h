@@ -19,9 +19,9 @@ SHARED vec3 front_line(IN(LightWindow) window, IN(vec3) p, IN(vec3) q, float err
 
 // Bounds in texels of what of the triangle lies in front of the light (z > 0) and within `margin` texels of the grid;
 // empty (low > high) if nothing does. The projection is unbounded, so it is clipped before it is dilated.
-SHARED vec4 front_box(IN(LightFrame) light, IN(LightWindow) window, IN(vec3) la, IN(vec3) lb, IN(vec3) lc, float error,
+SHARED vec4 front_box(IN(LightWindow) window, IN(vec3) la, IN(vec3) lb, IN(vec3) lc, float error,
                       float margin) {
-  float side = float(light.grid.x);
+  float side = window.guard.y;
   vec3 low = min(la, min(lb, lc)) - vec3(error);
   vec3 high = max(la, max(lb, lc)) + vec3(error);
   // A point with z in (0, high.z] and x > 0 projects to x / z >= low.x / high.z, and so on.

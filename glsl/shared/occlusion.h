@@ -52,6 +52,30 @@ SHARED double edge_side(IN(vec3) a, IN(vec3) b, IN(vec3) p, IN(dvec3) d) {
   return swapped ? -det : det;
 }
 
+// A plane that a positional light lies in, as far as can be told, casts nothing: on which side the light is would be a matter
+// of rounding, and with it whether all that lies behind is dark. As far as can be told: within 1/64 of a pixel as wide as at the
+// light (axis_x.w, with the light's own rounding), and the vertices' rounding.
+SHARED bool holds_light(IN(LightFrame) light, IN(vec3) a, IN(vec3) b, IN(vec3) c) {
+  if (!is_positional(light)) return false;
+  PRECISE float band = light.axis_x.w + 16.0f * unit_roundoff * max_norm1(a, b, c);
+  // Single precision tells for nearly all, with room to spare.
+  vec3 to_light = vec3(light.origin) - a;
+  vec3 n = cross(b - a, c - a);
+  float size = norm1(b - a) * norm1(c - a);
+  if (abs(dot(n, to_light)) > 2.0f * band * norm1(n) + 32.0f * unit_roundoff * size * norm1(to_light)) return false;
+  dvec3 e1 = dvec3(b) - dvec3(a);
+  dvec3 e2 = dvec3(c) - dvec3(a);
+  dvec3 w = dvec3(vec3(light.origin)) - dvec3(a);
+  PRECISE double nx = e1.y * e2.z - e1.z * e2.y;
+  PRECISE double ny = e1.z * e2.x - e1.x * e2.z;
+  PRECISE double nz = e1.x * e2.y - e1.y * e2.x;
+  PRECISE double side = (nx * w.x + ny * w.y) + nz * w.z;
+  PRECISE double length2 = (nx * nx + ny * ny) + nz * nz;
+  PRECISE double side2 = side * side;
+  PRECISE double band2 = double(band) * double(band) * length2;
+  return side2 <= band2;
+}
+
 SHARED bool occludes(IN(CameraFrame) camera, IN(LightFrame) light, IN(vec3) a, IN(vec3) b, IN(vec3) c, IN(vec3) p,
                      float eye_distance) {
   dvec3 e1 = dvec3(b) - dvec3(a);
@@ -62,7 +86,7 @@ SHARED bool occludes(IN(CameraFrame) camera, IN(LightFrame) light, IN(vec3) a, I
   bool positional = is_positional(light);
   dvec3 from_plane = positional ? dvec3(vec3(light.origin)) - dvec3(a) : dvec3(vec3(light.to_light));
   PRECISE double side = (nx * from_plane.x + ny * from_plane.y) + nz * from_plane.z;
-  // side == 0: the plane holds the light, or there is no plane; such a triangle casts nothing.
+  // side == 0: edge-on to the light, or there is no plane; such a triangle casts nothing.
   double sign = side > 0.0 ? 1.0 : -1.0;
 
   dvec3 q = dvec3(a) - dvec3(p);
@@ -76,7 +100,7 @@ SHARED bool occludes(IN(CameraFrame) camera, IN(LightFrame) light, IN(vec3) a, I
   double s0 = edge_side(a, b, p, d) * sign;
   double s1 = edge_side(b, c, p, d) * sign;
   double s2 = edge_side(c, a, p, d) * sign;
-  return side != 0.0 && height > 0.0 && height2 > bias2 && s0 >= 0.0 && s1 >= 0.0 && s2 >= 0.0;
+  return side != 0.0 && !holds_light(light, a, b, c) && height > 0.0 && height2 > bias2 && s0 >= 0.0 && s1 >= 0.0 && s2 >= 0.0;
 }
 
 // ---- the same in single precision, with its error bounds ----------------------------------------------------------

@@ -23,8 +23,8 @@ void set_value(const OptionSet& set, const std::string& name, const std::optiona
 }
 
 void render_again(Session& session, Technique& technique) {
-  session.renderer.prepare(technique, session.frame.size.width_px, session.frame.size.height_px);
-  session.renderer.render(session.frame.camera, session.frame.light, session.timers);
+  session.renderer.prepare(technique, session.frame.size.width_px, session.frame.size.height_px, session.frame.lights);
+  session.renderer.render(session.frame.camera, session.frame.lights, session.timers);
   session.timers.collect();
 }
 
@@ -37,19 +37,24 @@ bool approximates(Technique& technique) {
                      [&](const char* name) { return value_of(set, name).value_or("exact") != "exact"; });
 }
 
-reference::MaskTwins render_twins(Session& session, Technique& technique) {
+std::vector<reference::MaskTwins> render_twins(Session& session, Technique& technique) {
   const OptionSet set = technique.options();
   std::vector<std::optional<std::string>> asked;
   for (const char* name : approximations) asked.push_back(value_of(set, name));
-  std::vector<std::vector<uint32_t>> masks{session.renderer.read_mask()};
-  for (const char* name : approximations) {
-    set_value(set, name, "exact");
-    render_again(session, technique);
-    masks.push_back(session.renderer.read_mask());
-  }
+  std::vector<reference::MaskTwins> twins(session.renderer.light_count());
+  const auto keep = [&](std::vector<uint32_t> reference::MaskTwins::*mask) {
+    for (size_t i = 0; i < twins.size(); ++i) twins[i].*mask = session.renderer.read_mask(i);
+  };
+  keep(&reference::MaskTwins::asked);
+  set_value(set, approximations[0], "exact");
+  render_again(session, technique);
+  keep(&reference::MaskTwins::exact_coverage);
+  set_value(set, approximations[1], "exact");
+  render_again(session, technique);
+  keep(&reference::MaskTwins::exact);
   for (size_t i = 0; i < asked.size(); ++i) set_value(set, approximations[i], asked[i]);
   render_again(session, technique);
-  return {std::move(masks[0]), std::move(masks[1]), std::move(masks[2])};
+  return twins;
 }
 
 }  // namespace izb

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "app/frame_options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <glm/gtc/constants.hpp>
+#include <set>
 #include <vector>
 
 #include "base/error.h"
@@ -48,8 +50,8 @@ Light parse_sun(const std::string& text) {
 
 Light parse_spot(const std::string& text) {
   const std::vector<double> n = parse_numbers("spot", text, 7);
-  if (!(n[6] > 0.0 && n[6] <= 60.0))
-    throw UsageError(fmt::format("--spot's half-angle must be above 0 and at most 60 degrees, not {}", n[6]));
+  if (!(n[6] > 0.0 && n[6] <= 90.0))
+    throw UsageError(fmt::format("--spot's half-angle must be above 0 and at most 90 degrees, not {}", n[6]));
   Light light;
   light.name = "spot";
   light.type = LightType::spot;
@@ -59,6 +61,14 @@ Light parse_spot(const std::string& text) {
   light.direction_ws = glm::normalize(way);
   light.outer_cone_rad = glm::radians(n[6]);
   light.inner_cone_rad = 0.9 * light.outer_cone_rad;
+  return light;
+}
+
+Light parse_point(const std::string& text) {
+  Light light;
+  light.name = "point";
+  light.type = LightType::point;
+  light.position_ws = parse_vector("point", text);
   return light;
 }
 
@@ -89,19 +99,63 @@ Camera choose_camera(const FrameOptions& o, const Scene& scene, const std::optio
   return default_camera(world_bounds(scene));
 }
 
-Light choose_light(const FrameOptions& o, const Scene& scene, const std::optional<Viewpoint>& viewpoint) {
-  if (int(!o.light.empty()) + int(!o.sun.empty()) + int(!o.spot.empty()) > 1)
-    throw UsageError("--light, --sun and --spot exclude each other");
-  if (!o.sun.empty()) return parse_sun(o.sun);
-  if (!o.spot.empty()) return parse_spot(o.spot);
-  if (!o.light.empty()) return find_light(scene, o.light);
-  if (viewpoint && viewpoint->light) return find_light(scene, *viewpoint->light);
-  if (viewpoint && viewpoint->sun_deg) return sun(viewpoint->sun_deg->x, viewpoint->sun_deg->y);
-  for (const Light& light : scene.lights)
-    if (light.type != LightType::point) return light;
-  note("the scene has no {}light: a sun at azimuth {} and elevation {} degrees is used (--sun chooses another)",
-       scene.lights.empty() ? "" : "directional or spot ", default_azimuth_deg, default_elevation_deg);
-  return sun(default_azimuth_deg, default_elevation_deg);
+/// The parts of a list "A;B;C", one if there is no semicolon; empty for an empty text.
+std::vector<std::string> parts_of(const std::string& text) {
+  std::vector<std::string> parts;
+  for (size_t at = 0; !text.empty() && at <= text.size();) {
+    const size_t end = std::min(text.find(';', at), text.size());
+    parts.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return parts;
+}
+
+/// Lights of the scene by a list of names or indices, or "all"; a light whose own name looks like a list counts as one.
+std::vector<Light> scene_lights(const Scene& scene, const std::string& text) {
+  const auto is_called = [&](const std::string& name) {
+    return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const Light& l) { return l.name == name; });
+  };
+  if (text == "all" && !is_called("all") && !scene.lights.empty()) return scene.lights;
+  if (is_called(text)) return {find_light(scene, text)};
+  std::vector<Light> lights;
+  for (const std::string& name : parts_of(text)) lights.push_back(find_light(scene, name));
+  return lights;
+}
+
+/// A lamp from the command line is as strong as a sun at half the scene's radius.
+void set_strength(std::vector<Light>& lamps, const Scene& scene) {
+  if (lamps.empty()) return;
+  const double radius = world_bounds(scene).radius(), reach = radius > 0.0 ? 0.5 * radius : 1.0;
+  for (Light& lamp : lamps) lamp.intensity = static_cast<float>(reach * reach);
+}
+
+/// Channels and hashes go by the names.
+void make_names_unique(std::vector<Light>& lights) {
+  std::set<std::string> taken;
+  for (Light& light : lights) {
+    const std::string name = light.name.empty() ? type_name(light.type) : light.name;
+    light.name = name;
+    for (int n = 2; !taken.insert(light.name).second; ++n) light.name = fmt::format("{} {}", name, n);
+  }
+}
+
+std::vector<Light> choose_lights(const FrameOptions& o, const Scene& scene, const std::optional<Viewpoint>& viewpoint) {
+  std::vector<Light> lights, lamps;
+  if (!o.light.empty()) lights = scene_lights(scene, o.light);
+  for (const std::string& text : parts_of(o.sun)) lights.push_back(parse_sun(text));
+  for (const std::string& text : parts_of(o.spot)) lamps.push_back(parse_spot(text));
+  for (const std::string& text : parts_of(o.point)) lamps.push_back(parse_point(text));
+  set_strength(lamps, scene);
+  lights.insert(lights.end(), lamps.begin(), lamps.end());
+  if (!lights.empty()) return lights;
+  if (viewpoint && viewpoint->light) return {find_light(scene, *viewpoint->light)};
+  if (viewpoint && viewpoint->sun_deg) return {sun(viewpoint->sun_deg->x, viewpoint->sun_deg->y)};
+  if (scene.lights.size() > 1)
+    note("of the scene's {} lights '{}' is used (--light all takes all)", scene.lights.size(), scene.lights[0].name);
+  if (!scene.lights.empty()) return {scene.lights.front()};
+  note("the scene has no light: a sun at azimuth {} and elevation {} degrees is used (--sun chooses another)",
+       default_azimuth_deg, default_elevation_deg);
+  return {sun(default_azimuth_deg, default_elevation_deg)};
 }
 
 }  // namespace
@@ -114,11 +168,14 @@ OptionSet FrameOptions::options() {
   set.text("eye", eye, "X,Y,Z", "camera position in world units, with --target");
   set.text("target", target, "X,Y,Z", "the point that the camera looks at, in world units");
   set.number("fov", fov_deg, 0.1, 170.0, "degrees", "vertical field of view, with --eye");
-  set.text("light", light, "NAME|INDEX", "a light of the scene; without one, its first, or a sun");
+  set.text("light", light, "NAME|INDEX|all",
+           "a light of the scene, or several with semicolons between them, or all; without any light, the scene's "
+           "first, or a sun. --sun, --spot and --point take several in the same way and may be given together");
   set.text("sun", sun, "AZIMUTH,ELEVATION",
            "a directional light: degrees clockwise from -z, degrees above the horizon");
   set.text("spot", spot, "X,Y,Z,TX,TY,TZ,ANGLE",
-           "a spot light: position, target (world units), half-angle (degrees, up to 60)");
+           "a spot light: position, target (world units), half-angle (degrees, up to 90)");
+  set.text("point", point, "X,Y,Z", "a light that shines all around: position in world units");
   set.text("viewpoint", viewpoint, "NAME", "a named view of the views file: camera and light");
   set.text("views", views, "FILE", "the views file");
   set.choice("technique", technique, technique_names(), "the shadow technique; its own options are listed below");
@@ -143,7 +200,9 @@ Size parse_size(const std::string& text) {
 FrameChoice choose_frame(const FrameOptions& o, const Scene& scene) {
   std::optional<Viewpoint> viewpoint;
   if (!o.viewpoint.empty()) viewpoint = read_viewpoint(find_views(o.views), o.viewpoint);
-  return {parse_size(o.size), choose_camera(o, scene, viewpoint), choose_light(o, scene, viewpoint)};
+  FrameChoice choice{parse_size(o.size), choose_camera(o, scene, viewpoint), choose_lights(o, scene, viewpoint)};
+  make_names_unique(choice.lights);
+  return choice;
 }
 
 }  // namespace izb

@@ -16,7 +16,7 @@ struct FrameOptions {
   std::string size = "1280x720";
   std::string camera, eye, target;
   double fov_deg = 45.0;
-  std::string light, sun, spot;
+  std::string light, sun, spot, point;
   std::string viewpoint;
   std::string views = "bench/views.json";
   std::string technique = "izb";
@@ -35,7 +35,7 @@ struct Size {
 struct FrameChoice {
   Size size;
   Camera camera;
-  Light light;
+  std::vector<Light> lights;  ///< at least one; no two have the same name
 };
 
 /// Throws izb::UsageError for text that does not parse or options that exclude each other, izb::Error for names that

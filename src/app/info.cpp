@@ -8,20 +8,10 @@
 #include "base/table.h"
 #include "reference/embree.h"
 #include "scene/gltf.h"
+#include "scene/view.h"
 
 namespace izb {
 namespace {
-
-const char* word(LightType type) {
-  switch (type) {
-    case LightType::directional:
-      return "directional";
-    case LightType::spot:
-      return "spot";
-    default:
-      return "point";
-  }
-}
 
 void print_gl(const std::string& context_name) {
   const Gl gl(context_name);
@@ -60,7 +50,7 @@ void print_scene(const std::string& path) {
                                                   scene.cameras[i].orthographic ? "orthographic" : "perspective")});
   for (size_t i = 0; i < scene.lights.size(); ++i)
     table.add_row(
-        {fmt::format("light {}", i), fmt::format("{} ({})", scene.lights[i].name, word(scene.lights[i].type))});
+        {fmt::format("light {}", i), fmt::format("{} ({})", scene.lights[i].name, type_name(scene.lights[i].type))});
   for (const std::string& sentence : scene.ignored) table.add_row({"ignored", sentence});
   fmt::print("{}", table.str());
 }

@@ -7,19 +7,28 @@
 namespace izb {
 
 Peer::Peer(const Renderer& renderer)
-    : receivers_(make_receivers(read_gbuffer(*renderer.inputs().gbuffer), renderer.inputs())),
-      light_(make_light_point(renderer.inputs().light)),
-      tracer_({renderer.inputs().triangles_vs()}, reference::BuildQuality::low),
+    : tracer_({renderer.inputs().triangles_vs()}, reference::BuildQuality::low),
       samples_{{"low", reference::BuildQuality::low, {}, {}},
                {"medium", reference::BuildQuality::medium, {}, {}},
-               {"high", reference::BuildQuality::high, {}, {}}} {}
+               {"high", reference::BuildQuality::high, {}, {}}} {
+  const GBufferImage gbuffer = read_gbuffer(*renderer.inputs().gbuffer);
+  for (size_t i = 0; i < renderer.light_count(); ++i) {
+    receivers_.push_back(make_receivers(gbuffer, renderer.inputs(i)));
+    lights_.push_back(make_light_point(renderer.inputs(i).light));
+  }
+}
 
 void Peer::run() {
   for (Samples& s : samples_) {
     s.rebuild_ms.push_back(tracer_.rebuild(s.quality));
-    const reference::MaskTrace traced = tracer_.trace_mask(light_, receivers_);
-    s.trace_ms.push_back(traced.trace_ms);
-    rays_ = traced.rays;
+    double trace_ms = 0.0;
+    rays_ = 0;
+    for (size_t i = 0; i < lights_.size(); ++i) {
+      const reference::MaskTrace traced = tracer_.trace_mask(lights_[i], receivers_[i]);
+      trace_ms += traced.trace_ms;
+      rays_ += traced.rays;
+    }
+    s.trace_ms.push_back(trace_ms);
   }
 }
 

@@ -24,8 +24,8 @@ class Peer {
     reference::BuildQuality quality;
     std::vector<double> rebuild_ms, trace_ms;
   };
-  reference::Receivers receivers_;
-  reference::LightPoint light_;
+  std::vector<reference::Receivers> receivers_;  ///< one a light, as the rest
+  std::vector<reference::LightPoint> lights_;
   reference::RayTracer tracer_;
   std::vector<Samples> samples_;
   uint64_t rays_ = 0;

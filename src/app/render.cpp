@@ -49,7 +49,7 @@ Timed render_frames(Session& s, const RenderOptions& o) {
   const FrameChoice& f = s.frame;
   // One frame unmeasured: the driver compiles on first use.
   gpu::StageTimers warm_up(s.timers.wall_clock());
-  s.renderer.render(f.camera, f.light, warm_up);
+  s.renderer.render(f.camera, f.lights, warm_up);
   glFinish();
   warm_up.collect();
   std::unique_ptr<Peer> peer;
@@ -59,7 +59,7 @@ Timed render_frames(Session& s, const RenderOptions& o) {
   for (int i = 0; i < o.repeat; ++i) {
     glFinish();
     const auto start = std::chrono::steady_clock::now();
-    s.renderer.render(f.camera, f.light, s.timers);
+    s.renderer.render(f.camera, f.lights, s.timers);
     glFinish();
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     timed.frame_ms.push_back(elapsed.count());
@@ -96,14 +96,13 @@ int render(RenderOptions& o) {
 
   nlohmann::json json = provenance(s, o.frame, *s.technique, o.arguments, o.scene);
   json["options"].update(o.options().to_json());
-  const std::vector<uint32_t> mask = s.renderer.read_mask();
-  json["mask_hash"] = mask_hash(mask);
+  json.update(masks_json(s));
   json["stages"] = stages_json(s.timers);
   json["frame_ms"] = median(timed.frame_ms);
   json.update(memory_json(s.renderer));
   if (!timed.peer.is_null()) json["peer"] = timed.peer;
-  const Image image = frame_image(s, *s.technique, json);
-  json.update(statistics_json(s));
+  const Image image = frame_image(s, json);
+  add_statistics(json, s);
   const std::vector<float>& depth = image.floats("depth");
   if (std::none_of(depth.begin(), depth.end(), [](float d) { return d > 0.0f; }))
     warn("no triangle of '{}' is in view: the picture shows the sky", o.scene);

@@ -40,16 +40,25 @@ void add_camera(Image& image, const Session& session) {
   image.attributes["worldToNDC"] = floats_of(upper_left * clip * view);
 }
 
-void add_light(Image& image, const Light& light) {
+/// What the channels of a light are called after the first word: nothing where there is one light.
+std::string suffix_of(const Session& session, size_t light) {
+  if (session.frame.lights.size() == 1) return {};
+  std::string name = "." + session.frame.lights[light].name;
+  std::replace(name.begin() + 1, name.end(), '.', '_');  // a dot would begin another layer
+  return name;
+}
+
+void add_light(Image& image, const Light& light, const std::string& suffix) {
   const auto triple = [](const glm::dvec3& v) { return std::array<float, 3>{float(v.x), float(v.y), float(v.z)}; };
-  const bool spot = light.type == LightType::spot;
-  image.attributes["light.type"] = std::string(spot ? "spot" : "directional");
-  image.attributes["light.direction"] = triple(light.direction_ws);
-  image.attributes["light.color"] = triple(glm::dvec3(light.color));
-  if (spot) {
-    image.attributes["light.position"] = triple(light.position_ws);
-    image.attributes["light.halfAngleDegrees"] = float(glm::degrees(light.outer_cone_rad));
-    image.attributes["light.innerHalfAngleDegrees"] = float(glm::degrees(light.inner_cone_rad));
+  const std::string prefix = "light" + suffix + ".";
+  image.attributes[prefix + "type"] = std::string(type_name(light.type));
+  if (light.type != LightType::point) image.attributes[prefix + "direction"] = triple(light.direction_ws);
+  image.attributes[prefix + "color"] = triple(glm::dvec3(light.color));
+  image.attributes[prefix + "intensity"] = light.intensity;
+  if (light.type != LightType::directional) image.attributes[prefix + "position"] = triple(light.position_ws);
+  if (light.type == LightType::spot) {
+    image.attributes[prefix + "halfAngleDegrees"] = float(glm::degrees(light.outer_cone_rad));
+    image.attributes[prefix + "innerHalfAngleDegrees"] = float(glm::degrees(light.inner_cone_rad));
   }
 }
 
@@ -73,14 +82,27 @@ nlohmann::json provenance(const Session& session, const FrameOptions& options, T
   return facts;
 }
 
-std::string mask_hash(const std::vector<uint32_t>& mask) {
-  return sha256_hex(std::as_bytes(std::span(mask)));
+std::string mask_hash(std::span<const std::vector<uint32_t>> masks) {
+  std::vector<uint32_t> all;
+  for (const std::vector<uint32_t>& mask : masks) all.insert(all.end(), mask.begin(), mask.end());
+  return sha256_hex(std::as_bytes(std::span(all)));
 }
 
-Image frame_image(const Session& session, Technique& technique, const nlohmann::json& facts) {
+nlohmann::json masks_json(const Session& session) {
+  std::vector<std::vector<uint32_t>> masks;
+  nlohmann::json lights = nlohmann::json::array();
+  for (size_t i = 0; i < session.renderer.light_count(); ++i) {
+    masks.push_back(session.renderer.read_mask(i));
+    lights.push_back({{"name", session.frame.lights[i].name},
+                      {"type", type_name(session.frame.lights[i].type)},
+                      {"mask_hash", mask_hash({&masks.back(), 1})}});
+  }
+  return {{"mask_hash", mask_hash(masks)}, {"lights", lights}, {"exposure", session.renderer.exposure()}};
+}
+
+Image frame_image(Session& session, const nlohmann::json& facts) {
   const FrameInputs& in = session.renderer.inputs();
   const GBufferImage gbuffer = read_gbuffer(*in.gbuffer);
-  const std::vector<uint32_t> mask = session.renderer.read_mask();
   Image image;
   image.width_px = in.width_px;
   image.height_px = in.height_px;
@@ -97,7 +119,6 @@ Image frame_image(const Session& session, Technique& technique, const nlohmann::
   plane("R", [&](size_t i) { return picture[i].r; });
   plane("G", [&](size_t i) { return picture[i].g; });
   plane("B", [&](size_t i) { return picture[i].b; });
-  plane("visibility", [&](size_t i) { return 1.0f - float(std::popcount(mask[i])) / 32.0f; });
   plane("depth", [&](size_t i) { return gbuffer.eye_distance[i]; });
   std::vector<glm::vec3> normals(count, glm::vec3(0.0f));
   const glm::mat3 world_from_view = glm::mat3(session.frame.camera.world_from_view);
@@ -106,12 +127,16 @@ Image frame_image(const Session& session, Technique& technique, const nlohmann::
   plane("normal.X", [&](size_t i) { return normals[i].x; });
   plane("normal.Y", [&](size_t i) { return normals[i].y; });
   plane("normal.Z", [&](size_t i) { return normals[i].z; });
-  if (std::vector<float> lengths = technique.list_lengths(in); !lengths.empty())
-    image.add("list_length", flip_rows(std::move(lengths), in.width_px, in.height_px));
-  image.add("mask", mask);
-
+  for (size_t light = 0; light < session.renderer.light_count(); ++light) {
+    const std::string suffix = suffix_of(session, light);
+    std::vector<uint32_t> mask = session.renderer.read_mask(light);
+    plane("visibility" + suffix, [&](size_t i) { return 1.0f - float(std::popcount(mask[i])) / 32.0f; });
+    if (std::vector<float> lengths = session.renderer.list_lengths(light); !lengths.empty())
+      image.add("list_length" + suffix, flip_rows(std::move(lengths), in.width_px, in.height_px));
+    image.add("mask" + suffix, std::move(mask));
+    add_light(image, session.frame.lights[light], suffix);
+  }
   add_camera(image, session);
-  add_light(image, session.frame.light);
   for (const auto& [key, value] : facts.items())
     image.attributes["izb." + key] = value.is_string() ? value.get<std::string>() : json_text(value);
   return image;

@@ -3,6 +3,7 @@
 #pragma once
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "app/commands.h"
 #include "app/session.h"
@@ -14,12 +15,16 @@ namespace izb {
 nlohmann::json provenance(const Session& session, const FrameOptions& options, Technique& technique,
                           const Arguments& arguments, const std::string& scene_path);
 
-/// SHA-256 of the mask's words, little-endian, top row first.
-std::string mask_hash(const std::vector<uint32_t>& mask);
+/// SHA-256 of the mask's words, little-endian, top row first; of several masks of one after the other.
+std::string mask_hash(std::span<const std::vector<uint32_t>> masks);
 
-/// The last frame as channels R G B, visibility, depth, normal.X/Y/Z, mask, list_length (where the technique has
-/// lists), with the standard attributes worldToCamera and worldToNDC, the light, and `facts` as text.
-Image frame_image(const Session& session, Technique& technique, const nlohmann::json& facts);
+/// `mask_hash` of all masks of the last frame, `lights` (name, type, mask_hash), and `exposure`.
+nlohmann::json masks_json(const Session& session);
+
+/// The last frame as channels R G B, depth, normal.X/Y/Z, and of its light mask, visibility, list_length (where the
+/// technique has lists): of several lights mask.NAME and so on. With the standard attributes worldToCamera and
+/// worldToNDC, the lights, and `facts` as text.
+Image frame_image(Session& session, const nlohmann::json& facts);
 
 double median(std::vector<double> values);
 

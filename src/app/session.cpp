@@ -66,7 +66,7 @@ Session::Session(const FrameOptions& options, std::unique_ptr<Technique> its_tec
       renderer(scene, gl.capabilities),
       timers(gl.capabilities.software) {
   for (const std::string& sentence : scene.ignored) note("{}: {}", scene_path, sentence);
-  renderer.prepare(*technique, frame.size.width_px, frame.size.height_px);
+  renderer.prepare(*technique, frame.size.width_px, frame.size.height_px, frame.lights);
 }
 
 }  // namespace izb

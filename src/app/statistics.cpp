@@ -8,10 +8,10 @@ namespace izb {
 namespace {
 
 /// Receivers, and those of them that no sample sees the light from.
-Counts receiver_counts(const Renderer& renderer) {
-  const FrameInputs& in = renderer.inputs();
+Counts receiver_counts(const Renderer& renderer, size_t light) {
+  const FrameInputs& in = renderer.inputs(light);
   const GBufferImage gbuffer = read_gbuffer(*in.gbuffer);
-  const std::vector<uint32_t> mask = renderer.read_mask();
+  const std::vector<uint32_t> mask = renderer.read_mask(light);
   uint64_t receivers = 0, fully_shadowed = 0;
   for (size_t i = 0; i < mask.size(); ++i) {
     if (pixel_class(gbuffer, in.camera, in.light, i) != shared::class_receiver) continue;
@@ -39,15 +39,25 @@ nlohmann::json averages_json(const nlohmann::json& counts) {
 
 }  // namespace
 
-nlohmann::json statistics_json(Session& session) {
-  nlohmann::json json;
-  json["counts"] = counts_json(session.renderer.count());
-  json["counts"].update(counts_json(receiver_counts(session.renderer)));
-  json["averages"] = averages_json(json["counts"]);
-  if (std::vector<uint64_t> histogram = session.technique->list_histogram(session.renderer.inputs());
-      !histogram.empty())
-    json["list_histogram"] = std::move(histogram);
-  return json;
+void add_statistics(nlohmann::json& json, Session& session) {
+  nlohmann::json all = nlohmann::json::object();
+  std::vector<uint64_t> histogram;
+  for (size_t light = 0; light < session.renderer.light_count(); ++light) {
+    nlohmann::json counts = counts_json(session.renderer.count(light));
+    counts.update(counts_json(receiver_counts(session.renderer, light)));
+    for (const auto& [name, value] : counts.items()) {
+      const uint64_t before = all.value(name, uint64_t{0}), its = value.get<uint64_t>();
+      all[name] = name == "longest_list" ? std::max(before, its) : before + its;
+    }
+    const std::vector<uint64_t> its = session.renderer.list_histogram(light);
+    if (histogram.size() < its.size()) histogram.resize(its.size());
+    for (size_t n = 0; n < its.size(); ++n) histogram[n] += its[n];
+    if (session.renderer.light_count() > 1)
+      json["lights"][light].update({{"counts", counts}, {"averages", averages_json(counts)}});
+  }
+  json["counts"] = all;
+  json["averages"] = averages_json(all);
+  if (!histogram.empty()) json["list_histogram"] = std::move(histogram);
 }
 
 }  // namespace izb

@@ -7,7 +7,9 @@
 
 namespace izb {
 
-/// `counts`, `averages` and, where the technique has lists, `list_histogram`, of the last frame, by a frame of its own.
-nlohmann::json statistics_json(Session& session);
+/// Adds to the JSON of a frame, which has its `lights`: `counts`, `averages` and, where the technique has lists,
+/// `list_histogram`, of the last frame, by a frame of its own. They are sums over the lights; of several lights each
+/// has its own counts and averages, too.
+void add_statistics(nlohmann::json& json, Session& session);
 
 }  // namespace izb

@@ -15,6 +15,7 @@
 #include "base/json_text.h"
 #include "base/log.h"
 #include "base/progress.h"
+#include "image/picture.h"
 #include "image/png.h"
 #include "reference/embree.h"
 #include "reference/model.h"
@@ -42,7 +43,7 @@ struct ValidateOptions {
     set.text("heatmap", heatmap, "FILE",
              "write a picture of the verdicts as PNG: grey the mask, blue settled for the mask, yellow explained, red "
              "unexplained, magenta leaked by an approximate insertion, cyan wrong by a look-up table; with several "
-             "scenes the stem of each is added to the name");
+             "scenes the stem of each is added to the name, of several lights the pictures stand side by side");
     set.flag("points", points, "also check the receiver points themselves");
     set.flag("model", model,
              "also compare each sample with a shadow ray from where its own camera ray hits: the error of the "
@@ -64,59 +65,101 @@ uint64_t shrunk_pixels(const reference::Receivers& receivers) {
   return shrunk;
 }
 
-/// `heatmap` may be null.
-SceneReport validate_scene(const ValidateOptions& o, const std::string& scene_path, AtomicFile* heatmap) {
-  FrameOptions frame = o.frame;
-  // With several scenes each has its own view, named after its file.
-  if (frame.viewpoint == "auto") frame.viewpoint = stem(scene_path);
-  Session s(frame, another(*o.technique), scene_path);
-  s.renderer.render(s.frame.camera, s.frame.light, s.timers);
-  s.timers.collect();
-  const std::vector<uint32_t> asked = s.renderer.read_mask();
-  const nlohmann::json memory = memory_json(s.renderer);
+/// What the masks of one frame are compared with, whichever the light.
+struct Truth {
+  GBufferImage gbuffer;
+  reference::Triangles triangles;
+  reference::PixelRays rays;
+  reference::RayTracer tracer;
+
+  explicit Truth(const Session& s)
+      : gbuffer(read_gbuffer(*s.renderer.inputs().gbuffer)),
+        triangles{s.renderer.inputs().triangles_vs()},
+        rays(reference::pixel_rays(s.frame.camera, s.frame.size.width_px, s.frame.size.height_px)),
+        tracer(triangles) {}
+};
+
+/// A light's mask as asked for, and with the approximations turned off, where there are any.
+struct Masks {
+  std::vector<uint32_t> asked;
   std::optional<reference::MaskTwins> twins;
-  if (approximates(*s.technique)) twins = render_twins(s, *s.technique);
+};
+
+std::vector<Masks> render_masks(Session& s) {
+  s.renderer.render(s.frame.camera, s.frame.lights, s.timers);
+  s.timers.collect();
+  std::vector<Masks> masks(s.renderer.light_count());
+  for (size_t i = 0; i < masks.size(); ++i) masks[i].asked = s.renderer.read_mask(i);
+  if (!approximates(*s.technique)) return masks;
+  std::vector<reference::MaskTwins> twins = render_twins(s, *s.technique);
+  for (size_t i = 0; i < masks.size(); ++i) masks[i].twins = std::move(twins[i]);
+  return masks;
+}
+
+/// Compares the mask of one light; `json` is what is known already. The points are the same under all lights, and
+/// checked with the first.
+nlohmann::json validate_light(const ValidateOptions& o, const Session& s, const Truth& truth, size_t light,
+                              const Masks& masks, nlohmann::json json, Image8* heatmap, Progress& progress) {
+  const std::string& file = json["scene"]["file"].get_ref<const std::string&>();
+  const FrameInputs& in = s.renderer.inputs(light);
   // Only an exact mask has nothing but exact bits to explain.
-  const std::vector<uint32_t>& mask = twins ? twins->exact : asked;
-  const FrameInputs& in = s.renderer.inputs();
-  const reference::Receivers receivers = make_receivers(read_gbuffer(*in.gbuffer), in);
-  const reference::Triangles triangles{in.triangles_vs()};
-  const reference::LightPoint light = make_light_point(in.light);
-  const reference::PixelRays rays = reference::pixel_rays(s.frame.camera, in.width_px, in.height_px);
+  const std::vector<uint32_t>& mask = masks.twins ? masks.twins->exact : masks.asked;
+  const reference::Receivers receivers = make_receivers(truth.gbuffer, in);
+  const reference::LightPoint its = make_light_point(in.light);
+  progress.relabel("tracing " + file);
+  const reference::MaskTrace traced = truth.tracer.trace_mask(its, receivers);
+  progress.advance();
+  progress.relabel("settling disputed bits of " + file);
+  const reference::Settled settled = reference::settle(truth.triangles, its, receivers, mask, traced.mask);
+  progress.advance();
+  progress.relabel("checking the points of " + file);
 
-  Progress progress("building the ray tracer of " + scene_path, 4);
-  const reference::RayTracer tracer(triangles);
-  progress.advance();
-  progress.relabel("tracing " + scene_path);
-  const reference::MaskTrace traced = tracer.trace_mask(light, receivers);
-  progress.advance();
-  progress.relabel("settling disputed bits of " + scene_path);
-  const reference::Settled settled = reference::settle(triangles, light, receivers, mask, traced.mask);
-  progress.advance();
-  progress.relabel("checking the points of " + scene_path);
-
-  SceneReport report{scene_path, provenance(s, frame, *s.technique, o.arguments, scene_path)};
-  nlohmann::json& json = report.json;
-  json["options"]["points"] = o.points;
-  json.update(memory);
-  json["mask_hash"] = mask_hash(asked);
+  json["light"] = {{"name", s.frame.lights[light].name}, {"type", type_name(s.frame.lights[light].type)}};
+  json["mask_hash"] = mask_hash({&masks.asked, 1});
   json["pixels"] = mask.size();
   json["spp"] = receivers.sample_count();
   json["shrunk_pixels"] = shrunk_pixels(receivers);
   json.update(settled_json(settled));
-  if (twins) json["attribution"] = attribution_json(reference::attribute(receivers, *twins));
-  if (o.points) {
-    const reference::PointCheck check = reference::check_points(tracer, triangles, rays, receivers);
+  if (masks.twins) json["attribution"] = attribution_json(reference::attribute(receivers, *masks.twins));
+  if (o.points && light == 0) {
+    const reference::PointCheck check = reference::check_points(truth.tracer, truth.triangles, truth.rays, receivers);
     if (check.wrong > 0)
-      warn("{}: {} pixels see a wrong triangle, the first at pixel {}", scene_path, check.wrong,
-           check.wrong_pixels.front());
+      warn("{}: {} pixels see a wrong triangle, the first at pixel {}", file, check.wrong, check.wrong_pixels.front());
     json["points"] = points_json(check);
   }
-  if (o.model) json["model"] = model_json(reference::compare_model(tracer, triangles, light, rays, receivers, mask));
+  if (o.model)
+    json["model"] =
+        model_json(reference::compare_model(truth.tracer, truth.triangles, its, truth.rays, receivers, mask));
   if (settled.unexplained > 0) json["records"] = records_json(settled, in.width_px);
-  if (heatmap) write_png(*heatmap, verdict_picture(receivers, settled, asked, twins ? &*twins : nullptr, s.frame.size));
+  if (heatmap)
+    *heatmap = verdict_picture(receivers, settled, masks.asked, masks.twins ? &*masks.twins : nullptr, s.frame.size);
   progress.advance();
-  return report;
+  return json;
+}
+
+/// One report a light. `heatmap` may be null.
+std::vector<SceneReport> validate_scene(const ValidateOptions& o, const std::string& scene_path, AtomicFile* heatmap) {
+  FrameOptions frame = o.frame;
+  // With several scenes each has its own view, named after its file.
+  if (frame.viewpoint == "auto") frame.viewpoint = stem(scene_path);
+  Session s(frame, another(*o.technique), scene_path);
+  const std::vector<Masks> masks = render_masks(s);
+  nlohmann::json json = provenance(s, frame, *s.technique, o.arguments, scene_path);
+  json["options"]["points"] = o.points;
+  json.update(memory_json(s.renderer));
+
+  Progress progress("building the ray tracer of " + scene_path, 1 + 3 * masks.size());
+  const Truth truth(s);
+  progress.advance();
+  std::vector<SceneReport> reports;
+  std::vector<Image8> pictures(masks.size());
+  for (size_t i = 0; i < masks.size(); ++i) {
+    const std::string label = stem(scene_path) + (masks.size() > 1 ? " " + s.frame.lights[i].name : "");
+    reports.push_back({scene_path, label,
+                       validate_light(o, s, truth, i, masks[i], json, heatmap ? &pictures[i] : nullptr, progress)});
+  }
+  if (heatmap) write_png(*heatmap, side_by_side(pictures, 4, {0, 0, 0}));
+  return reports;
 }
 
 /// Whether nothing is wrong but what an approximation that was asked for may be.
@@ -149,17 +192,19 @@ int validate(const ValidateOptions& o) {
   bool good = true;
   for (size_t i = 0; i < o.scenes.size(); ++i) {
     try {
-      reports.push_back(validate_scene(o, o.scenes[i], heatmaps[i]));
+      for (SceneReport& report : validate_scene(o, o.scenes[i], heatmaps[i])) {
+        good &= passes(report, o.max_leak);
+        reports.push_back(std::move(report));
+      }
     } catch (const UsageError&) {
       throw;
     } catch (const Error& e) {
       failures.push_back(e.what());  // the others' results may take hours: they are not lost
       continue;
     }
-    good &= passes(reports.back(), o.max_leak);
   }
   if (!reports.empty()) print_table(reports);
-  for (const SceneReport& report : reports) fmt::print("{}: {}\n", stem(report.scene), memory_line(report.json));
+  for (const SceneReport& report : reports) fmt::print("{}: {}\n", report.label, memory_line(report.json));
   std::fflush(stdout);
   for (const std::string& failure : failures) note("{}", failure);
   if (!failures.empty()) return 1;

@@ -98,7 +98,7 @@ void print_table(const std::vector<SceneReport>& reports) {
   for (const Shown& column : shown) columns.push_back({column.heading});
   Table table(columns);
   for (const SceneReport& report : reports) {
-    std::vector<std::string> row{std::filesystem::path(report.scene).stem().string()};
+    std::vector<std::string> row{report.label};
     for (const Shown& column : shown) {
       const nlohmann::json value = report.json.value(nlohmann::json::json_pointer(column.path), nlohmann::json());
       row.push_back(value.is_null()           ? ""

@@ -12,9 +12,10 @@
 
 namespace izb {
 
-/// All that is known of one scene's frame; the table shows a part of its JSON.
+/// All that is known of one scene's frame under one light; the table shows a part of its JSON.
 struct SceneReport {
   std::string scene;
+  std::string label;  ///< the scene's name, and where it has several lights the light's
   nlohmann::json json;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "frame/bounds.h"
 
+#include <algorithm>
+
 #include "frame/spine.h"
 #include "shared/bindings.h"
 #include "shared/bounds.h"
@@ -11,40 +13,52 @@ namespace {
 constexpr int threads_a_group = 64;
 constexpr int groups = 256;  // persistent threads: enough to fill a GPU, few enough for atomics at their end
 
-gpu::ProgramSpec reduce_spec(bool micro_quads, int cascades) {
+constexpr int most_layers_a_pass = 8;  // whose extremes a thread holds
+
+int faces_a_pass(int cascades) {
+  return std::min(most_layers_a_pass / cascades, shared::cube_faces);
+}
+
+gpu::ProgramSpec reduce_spec(bool micro_quads, int cascades, bool cube) {
   gpu::ProgramSpec spec{"bounds", {"frame/2_bounds.comp.glsl"}, {{"CASCADES", std::to_string(cascades)}}};
+  spec.defines["LAYERS"] = std::to_string(cube ? cascades * faces_a_pass(cascades) : cascades);
   if (micro_quads) spec.defines["MICRO_QUAD"] = "1";
+  if (cube) spec.defines["CUBE"] = "1";
   return spec;
 }
 
 }  // namespace
 
 std::vector<gpu::ProgramSpec> BoundsStage::program_specs() {
-  return {{"bounds window", {"frame/2_bounds_window.comp.glsl"}, {}},
-          {"bounds range", {"frame/2_bounds_range.comp.glsl"}, {}},
-          {"bounds split", {"frame/2_bounds_split.comp.glsl"}, {}},
-          reduce_spec(false, 1),
-          reduce_spec(true, 1),
-          reduce_spec(false, shared::max_cascades),
-          reduce_spec(true, shared::max_cascades)};
+  std::vector<gpu::ProgramSpec> specs{{"bounds window", {"frame/2_bounds_window.comp.glsl"}, {}},
+                                      {"bounds range", {"frame/2_bounds_range.comp.glsl"}, {}},
+                                      {"bounds split", {"frame/2_bounds_split.comp.glsl"}, {}}};
+  for (const bool micro_quads : {false, true})
+    for (const int cascades : {1, shared::max_cascades})
+      for (const bool cube : {false, true}) specs.push_back(reduce_spec(micro_quads, cascades, cube));
+  return specs;
 }
 
 BoundsStage::BoundsStage()
     : window_program_(program_specs()[0]),
       range_program_(program_specs()[1]),
       split_program_(program_specs()[2]),
-      bounds_("receiver bounds", sizeof(shared::ReceiverBounds) * shared::max_cascades),
-      windows_("light windows", sizeof(shared::LightWindow) * shared::max_cascades),
+      bounds_("receiver bounds", sizeof(shared::ReceiverBounds) * shared::max_layers),
+      windows_("light windows", sizeof(shared::LightWindow) * shared::max_layers),
       cascades_buffer_("cascades", sizeof(shared::CascadeRange)) {}
 
 void BoundsStage::prepare(bool micro_quads, int cascades) {
-  reduce_ = gpu::Program(reduce_spec(micro_quads, cascades));
+  reduce_ = gpu::Program();
+  reduce_cube_ = gpu::Program();
+  micro_quads_ = micro_quads;
   cascades_ = cascades;
 }
 
-void BoundsStage::render(gpu::StageTimers& timers) {
+void BoundsStage::render(int faces, gpu::StageTimers& timers) {
+  gpu::Program& reduce = faces > 1 ? reduce_cube_ : reduce_;
+  if (!reduce) reduce = gpu::Program(reduce_spec(micro_quads_, cascades_, faces > 1));
   const gpu::StageTimers::Scope scope(timers, name(Stage::bounds));
-  const std::vector<shared::ReceiverBounds> empty(shared::max_cascades,
+  const std::vector<shared::ReceiverBounds> empty(shared::max_layers,
                                                   {glm::uvec4(~0u), glm::uvec4(0u), glm::uvec4(0u)});
   bounds_.update(0, bounds_.bytes(), empty.data());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_BOUNDS, bounds_.name());
@@ -59,7 +73,11 @@ void BoundsStage::render(gpu::StageTimers& timers) {
     split_program_.dispatch(1, 1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
-  reduce_.dispatch(threads_a_group * groups, 1, threads_a_group, 1);
+  reduce.use();
+  for (int first = 0; first < faces; first += faces_a_pass(cascades_)) {
+    if (faces > 1) glUniform1i(0, first * cascades_);
+    reduce.dispatch(threads_a_group * groups, 1, threads_a_group, 1);
+  }
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   window_program_.dispatch(1, 1, 1, 1);
   // Read as uniform blocks: a software renderer reads storage lane by lane.
@@ -68,8 +86,8 @@ void BoundsStage::render(gpu::StageTimers& timers) {
   glBindBufferBase(GL_UNIFORM_BUFFER, BIND_CASCADE_ENDS, cascades_buffer_.name());
 }
 
-shared::LightWindow BoundsStage::read_window(int cascade) const {
-  return windows_.read<shared::LightWindow>(shared::max_cascades)[static_cast<size_t>(cascade)];
+shared::LightWindow BoundsStage::read_window(int layer) const {
+  return windows_.read<shared::LightWindow>(shared::max_layers)[static_cast<size_t>(layer)];
 }
 
 shared::CascadeRange BoundsStage::read_cascades() const {

@@ -12,17 +12,19 @@ class BoundsStage {
   BoundsStage();
   /// micro_quads: the windows hold the pixels' micro-quads, not only their centres.
   void prepare(bool micro_quads, int cascades);
-  /// Camera and light uniform blocks and the G-buffer's textures are bound. Leaves the windows bound as BIND_WINDOWS
-  /// and the cascades' ends as BIND_CASCADE_ENDS, both uniform blocks.
-  void render(gpu::StageTimers& timers);
-  /// Reads a cascade's window back; for checks and debug views only.
-  shared::LightWindow read_window(int cascade = 0) const;
+  /// Camera and light uniform blocks and the G-buffer's textures are bound; `faces` is the light's. Leaves the windows
+  /// bound as BIND_WINDOWS and the cascades' ends as BIND_CASCADE_ENDS, both uniform blocks.
+  void render(int faces, gpu::StageTimers& timers);
+  /// Reads a layer's window back; for checks and debug views only.
+  shared::LightWindow read_window(int layer = 0) const;
   shared::CascadeRange read_cascades() const;
   static std::vector<gpu::ProgramSpec> program_specs();
 
  private:
-  gpu::Program reduce_, window_program_, range_program_, split_program_;
+  gpu::Program reduce_, reduce_cube_;  ///< made when a light first needs them
+  gpu::Program window_program_, range_program_, split_program_;
   gpu::Buffer bounds_, windows_, cascades_buffer_;
+  bool micro_quads_ = false;
   int cascades_ = 1;
 };
 

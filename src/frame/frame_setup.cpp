@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "frame/frame_setup.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
@@ -9,7 +10,8 @@
 namespace izb {
 namespace {
 
-constexpr double largest_spot_half_angle_deg = 60.0;
+// Above it one plane would need too many texels at its border.
+constexpr double largest_half_angle_of_one_grid_deg = 60.0;
 
 glm::vec4 with_w(const glm::dvec3& v, double w) {
   return glm::vec4(glm::dvec4(v, w));
@@ -44,32 +46,39 @@ shared::CameraFrame make_camera_frame(const Camera& camera, int width_px, int he
   return frame;
 }
 
-shared::LightFrame make_light_frame(const Camera& camera, const Light& light, const GridRequest& grid) {
-  if (light.type == LightType::point)
-    fail("light '{}' is an omnidirectional point light, which is not supported yet; name a directional or spot light",
-         light.name);
-  const bool positional = light.type == LightType::spot;
-  if (positional && light.outer_cone_rad > glm::radians(largest_spot_half_angle_deg) + 1e-6)
-    fail("light '{}' has a half-angle of {:.1f} degrees; spot lights up to {} degrees are supported", light.name,
-         glm::degrees(light.outer_cone_rad), largest_spot_half_angle_deg);
+int grid_faces(const Light& light, const GridRequest& grid) {
+  if (light.type == LightType::directional) return 1;
+  const bool one_will_do =
+      light.type == LightType::spot && light.outer_cone_rad <= glm::radians(largest_half_angle_of_one_grid_deg) + 1e-6;
+  return one_will_do && !grid.whole_micro_quads ? 1 : shared::cube_faces;
+}
 
+shared::LightFrame make_light_frame(const Camera& camera, const shared::CameraFrame& camera_frame, const Light& light,
+                                    const GridRequest& grid) {
+  const bool positional = light.type != LightType::directional;
   const glm::dmat4 view_from_world = glm::inverse(camera.world_from_view);
-  const glm::dvec3 z = glm::normalize(glm::dmat3(view_from_world) * light.direction_ws);
+  // A point light has no direction: its cube stands along the view.
+  const glm::dvec3 z = light.type == LightType::point
+                           ? glm::dvec3(0.0, 0.0, -1.0)
+                           : glm::normalize(glm::dmat3(view_from_world) * light.direction_ws);
   // The grid's x axis follows the view as seen from the light, so that the window is tight around the view frustum.
   const glm::dvec3 forward(0.0, 0.0, -1.0), up(0.0, 1.0, 0.0);
   const glm::dvec3 hint = std::abs(glm::dot(forward, z)) < 0.99 ? forward : up;
   const glm::dvec3 x = glm::normalize(hint - z * glm::dot(hint, z));
   const glm::dvec3 y = glm::cross(z, x);
   shared::LightFrame frame;
-  frame.axis_x = with_w(x, 0.0);
-  frame.axis_y = with_w(y, 0.0);
+  const glm::dvec3 position =
+      positional ? glm::dvec3(view_from_world * glm::dvec4(light.position_ws, 1.0)) : glm::dvec3(0.0);
+  const double away = glm::length(position);
+  const double band = positional ? shared::pixel_width(camera_frame, float(away)) / 64.0 + 16.0 * 0x1p-24 * away : 0.0;
+  frame.axis_x = with_w(x, band);
+  frame.axis_y = with_w(y, grid.density);
   frame.axis_z = with_w(z, 0.0);
-  frame.origin =
-      positional ? with_w(glm::dvec3(view_from_world * glm::dvec4(light.position_ws, 1.0)), 1.0) : glm::vec4(0.0f);
-  frame.to_light =
-      glm::vec4(-glm::vec3(frame.axis_z), positional ? static_cast<float>(std::cos(light.outer_cone_rad)) : -1.0f);
+  frame.origin = with_w(position, positional ? 1.0 : 0.0);
+  const double cone = light.type == LightType::spot ? std::max(std::cos(light.outer_cone_rad), 0.0) : -1.0;
+  frame.to_light = with_w(-glm::dvec3(glm::vec3(frame.axis_z)), cone);
   frame.color = glm::vec4(light.color, grid.nl_cull ? 1.0f : 0.0f);
-  frame.grid = glm::uvec4(grid.texels, grid.cascades, 0, 0);
+  frame.grid = glm::uvec4(grid.texels, grid.cascades, grid_faces(light, grid), 0);
   return frame;
 }
 
@@ -104,7 +113,20 @@ shared::SampleFrame make_sample_frame(const SamplePattern& samples, const GridRe
   return frame;
 }
 
-shared::ShadeFrame make_shade_frame(const Camera& camera, const Light& light) {
+bool exposure_is_measured(const std::vector<Light>& lights) {
+  return std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.type != LightType::directional; });
+}
+
+std::vector<double> shade_weights(const std::vector<Light>& lights) {
+  double sum = 0.0;
+  for (const Light& light : lights) sum += double(light.intensity);
+  const double share = exposure_is_measured(lights) || !(sum > 0.0) ? 1.0 : 1.0 / sum;
+  std::vector<double> weights;
+  for (const Light& light : lights) weights.push_back(double(light.intensity) * share);
+  return weights;
+}
+
+shared::ShadeFrame make_shade_frame(const Camera& camera, const Light& light, double weight) {
   const glm::dvec3 up = glm::transpose(glm::dmat3(camera.world_from_view)) * glm::dvec3(0.0, 1.0, 0.0);
   constexpr double ambient = 0.35;
   shared::ShadeFrame frame;
@@ -112,7 +134,10 @@ shared::ShadeFrame make_shade_frame(const Camera& camera, const Light& light) {
   frame.sky_horizon = glm::vec4(0.80f, 0.85f, 0.90f, 0.0f);
   frame.sky_zenith = glm::vec4(0.30f, 0.47f, 0.75f, 0.0f);
   frame.ground = glm::vec4(0.30f, 0.28f, 0.26f, 0.0f);
-  frame.cone = glm::vec4(std::cos(light.inner_cone_rad), std::cos(light.outer_cone_rad), 0.0, 0.0);
+  const bool spot = light.type == LightType::spot;
+  frame.cone = spot ? glm::vec4(std::cos(light.inner_cone_rad), std::cos(light.outer_cone_rad), 0.0, 0.0)
+                    : glm::vec4(-1.0f, -2.0f, 0.0f, 0.0f);  // lights every direction
+  frame.strength = glm::vec4(weight, light.range > 0.0 ? 1.0 / light.range : 0.0, 0.0, 0.0);
   return frame;
 }
 

@@ -10,7 +10,8 @@
 
 namespace izb::gpu {
 
-/// Collects samples in milliseconds, one list a name, in order of first use.
+/// Collects samples in milliseconds, one list a name, in order of first use: one a frame, the sum of the scopes of that
+/// name since the last collect().
 class StageTimers {
  public:
   explicit StageTimers(bool wall_clock) : wall_clock_(wall_clock) {}
@@ -35,7 +36,7 @@ class StageTimers {
     Query begin_, end_;
   };
 
-  /// Reads the queries that are still open. Call after each frame.
+  /// Ends a frame: reads its queries and adds its samples.
   void collect();
   void clear() { stages_.clear(); }
   const std::vector<Stage>& stages() const { return stages_; }
@@ -45,9 +46,9 @@ class StageTimers {
  private:
   struct Pending {
     std::string name;
+    double ms;  ///< of the wall clock
     Query begin, end;
   };
-  void add(const std::string& name, double ms);
 
   bool wall_clock_;
   std::vector<Stage> stages_;

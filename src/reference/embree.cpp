@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "reference/exact.h"
 #include "reference/parallel.h"
 
 #if IZB_EMBREE_MAJOR >= 4
@@ -33,6 +34,7 @@ struct Query {
   RTCIntersectContext context;
 #endif
   const uint32_t* own_triangle = nullptr;  // shadow rays: indexed by the ray's id
+  const uint8_t* holding = nullptr;        // shadow rays: of each triangle whether its plane holds the light; or null
   // all_hits(): takes every hit as the ray's id and a triangle, and lets the ray go on
   std::vector<std::pair<uint32_t, uint32_t>>* all_hits = nullptr;
 
@@ -49,12 +51,15 @@ struct Query {
 
 // A filter costs less than the noise of measuring it (it runs once a hit), and no offset along the ray would
 // do: at grazing light a point's own triangle is met arbitrarily far away.
-void skip_own_triangle(const RTCFilterFunctionNArguments* args) {
-  const uint32_t* own = reinterpret_cast<const Query*>(args->context)->own_triangle;
-  for (unsigned i = 0; i < args->N; ++i)
-    if (args->valid[i] != 0 &&  // lanes that are off hold no id
-        own[RTCRayN_id(args->ray, args->N, i)] == RTCHitN_primID(args->hit, args->N, i))
+void skip_what_casts_nothing(const RTCFilterFunctionNArguments* args) {
+  const auto* query = reinterpret_cast<const Query*>(args->context);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;  // lanes that are off hold no id
+    const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
+    if (query->own_triangle[RTCRayN_id(args->ray, args->N, i)] == triangle ||
+        (query->holding && query->holding[triangle]))
       args->valid[i] = 0;
+  }
 }
 
 void collect_all(const RTCFilterFunctionNArguments* args) {
@@ -143,9 +148,11 @@ struct CameraPacket {
 // Collects samples of receivers until 16 rays are full. Packets hold receivers only, whatever lies between them.
 class ShadowPacket {
  public:
-  ShadowPacket(RTCScene scene, const LightPoint& light, const Receivers& receivers, std::vector<uint32_t>& mask)
+  ShadowPacket(RTCScene scene, const LightPoint& light, const uint8_t* holding, const Receivers& receivers,
+               std::vector<uint32_t>& mask)
       : scene_(scene), light_(light), receivers_(receivers), mask_(mask), query_(true) {
     query_.own_triangle = receivers.own_triangle.data();
+    query_.holding = holding;
     for (int lane = 0; lane < packet; ++lane)
       ray_.time[lane] = 0.0f, ray_.mask[lane] = 0xFFFFFFFFu, ray_.flags[lane] = 0;
   }
@@ -223,12 +230,26 @@ struct RayTracer::State {
   RTCScene scene = nullptr;
   RTCGeometry geometry = nullptr;
   unsigned threads = 0;
+  size_t triangle_count = 0;
   double build_ms = 0.0;
 
   ~State() {
     if (geometry) rtcReleaseGeometry(geometry);
     if (scene) rtcReleaseScene(scene);
     if (device) rtcReleaseDevice(device);
+  }
+
+  // Of each triangle whether its plane holds the light; empty if none does.
+  std::vector<uint8_t> triangles_that_hold(const LightPoint& light) const {
+    if (!light.positional) return {};
+    const auto* vertices = static_cast<const glm::vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
+    std::vector<uint8_t> holding(triangle_count);
+    std::atomic<bool> any{false};
+    parallel_for(triangle_count, rays_per_chunk, threads, [&](size_t begin, size_t end, unsigned) {
+      for (size_t t = begin; t < end; ++t)
+        if (holds_light({vertices[3 * t], vertices[3 * t + 1], vertices[3 * t + 2]}, light)) holding[t] = 1, any = true;
+    });
+    return any ? holding : std::vector<uint8_t>();
   }
 
   void check(const char* what) const {
@@ -246,6 +267,7 @@ RayTracer::RayTracer(const Triangles& triangles, BuildQuality quality, unsigned 
          triangles.positions_vs.size());
   State& s = *state_;
   s.threads = thread_count(threads);
+  s.triangle_count = count;
   s.device = rtcNewDevice(("threads=" + std::to_string(s.threads)).c_str());
   if (!s.device) fail("Embree cannot make a device (error {})", static_cast<int>(rtcGetDeviceError(nullptr)));
   s.scene = rtcNewScene(s.device);
@@ -258,7 +280,7 @@ RayTracer::RayTracer(const Triangles& triangles, BuildQuality quality, unsigned 
   if (!vertices || !indices) fail("Embree has no memory for {} triangles", count);
   std::copy(triangles.positions_vs.begin(), triangles.positions_vs.end(), vertices);
   for (size_t i = 0; i < 3 * count; ++i) indices[i] = static_cast<uint32_t>(i);
-  rtcSetGeometryOccludedFilterFunction(s.geometry, skip_own_triangle);
+  rtcSetGeometryOccludedFilterFunction(s.geometry, skip_what_casts_nothing);
   rtcSetGeometryIntersectFilterFunction(s.geometry, collect_all);
   rtcAttachGeometry(s.scene, s.geometry);
   rebuild(quality);
@@ -297,17 +319,19 @@ MaskTrace RayTracer::trace_mask(const LightPoint& light, const Receivers& receiv
   if (width != 0 && count % width != 0) fail("cannot trace a mask: {} points do not fill rows of {}", count, width);
   MaskTrace result;
   result.mask.resize(count);
+  const std::vector<uint8_t> holding = s.triangles_that_hold(light);
+  const uint8_t* const its_holding = holding.empty() ? nullptr : holding.data();
   std::atomic<uint64_t> rays{0};
   const auto start = std::chrono::steady_clock::now();
   if (width == 0) {
     parallel_for(count, rays_per_chunk, s.threads, [&](size_t begin, size_t end, unsigned) {
-      ShadowPacket packets(s.scene, light, receivers, result.mask);
+      ShadowPacket packets(s.scene, light, its_holding, receivers, result.mask);
       packets.add(begin, end);
       rays += packets.finish();
     });
   } else {
     parallel_for(count / width, packet_height, s.threads, [&](size_t first_row, size_t end_row, unsigned) {
-      ShadowPacket packets(s.scene, light, receivers, result.mask);
+      ShadowPacket packets(s.scene, light, its_holding, receivers, result.mask);
       for (size_t left = 0; left < width; left += packet_width)
         for (size_t row = first_row; row < end_row; ++row)
           packets.add(row * width + left, row * width + std::min(left + packet_width, width));

@@ -154,6 +154,16 @@ class Question {
 
 }  // namespace
 
+bool holds_light(const Corners& triangle, const LightPoint& light) {
+  if (!light.positional) return false;
+  const auto norm1 = [](const glm::vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
+  const double reach = std::max({norm1(triangle.a), norm1(triangle.b), norm1(triangle.c)});
+  const double band = double(light.band) + 16.0 * 0x1p-24 * reach;
+  const glm::dvec3 n = normal(triangle);
+  const double side = glm::dot(n, glm::dvec3(light.xyz_vs) - glm::dvec3(triangle.a));
+  return side * side <= band * band * glm::dot(n, n);
+}
+
 bool occluded_exact(const glm::dvec3& point_vs, const Corners& triangle, const LightPoint& light) {
   Question question(point_vs, triangle, light);
   // The three edge values sum to den, so two certain signs that differ already say that the point is outside.
@@ -164,13 +174,14 @@ bool occluded_exact(const glm::dvec3& point_vs, const Corners& triangle, const L
       if (known[i] && known[j] && *known[i] != *known[j]) return false;
   }
   const int den = question.den();
-  if (den == 0) return false;
+  if (den == 0 || holds_light(triangle, light)) return false;
   for (int i = 0; i < 3; ++i)
     if ((known[i] ? *known[i] : question.edge(i)) == -den) return false;
   return question.plane_between(den);
 }
 
 bool plane_between_exact(const glm::dvec3& point_vs, const Corners& triangle, const LightPoint& light) {
+  if (holds_light(triangle, light)) return false;
   Question question(point_vs, triangle, light);
   return question.plane_between(question.den());
 }

@@ -8,6 +8,7 @@
 // D from P (directional: xyz_vs; positional: xyz_vs - P), den = det(b-a, c-a, D) and num = det(b-a, c-a,
 // a-P). The triangle occludes P iff
 //   den != 0 (a triangle that is degenerate or edge-on to the light casts nothing),
+//   its plane does not hold a positional light (holds_light: rounding would decide what is dark),
 //   no edge value det(a-P, b-P, D), det(b-P, c-P, D), det(c-P, a-P, D) has the sign opposite to den (zero is
 //   inside), num / den > 0 (the plane lies strictly on the light's side of P), and, positional, num / den < 1
 //   (before the light).
@@ -35,6 +36,10 @@ inline glm::dvec3 normal(const Corners& t) {
   const glm::dvec3 a(t.a);
   return glm::cross(glm::dvec3(t.b) - a, glm::dvec3(t.c) - a);
 }
+
+/// Whether the plane passes within light.band and the vertices' rounding (16 units of 2^-24 of the largest |v|_1) of a
+/// positional light. A frame's definition, not a truth about it: computed in double.
+bool holds_light(const Corners& triangle, const LightPoint& light);
 
 /// Whether the triangle occludes the point: the rule above, exactly. Any finite doubles may be the point.
 bool occluded_exact(const glm::dvec3& point_vs, const Corners& triangle, const LightPoint& light);

@@ -28,6 +28,7 @@ inline constexpr uint32_t no_triangle = 0xFFFFFFFFu;
 struct LightPoint {
   glm::vec3 xyz_vs{0.0f};
   bool positional = false;
+  float band = 0.0f;  ///< of a positional light, in world units: see holds_light() in exact.h
 };
 
 /// What a pixel is to the comparison.

@@ -118,6 +118,7 @@ Json camera_json(const Camera& camera) {
 
 Json light_json(const Light& light) {
   Json out{{"name", light.name}, {"color", numbers(light.color)}, {"intensity", light.intensity}};
+  if (light.range > 0.0) out["range"] = light.range;
   switch (light.type) {
     case LightType::directional:
       out["type"] = "directional";

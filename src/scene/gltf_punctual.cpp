@@ -83,7 +83,6 @@ void load_cameras(const tinygltf::Model& model, const NodeHierarchy& nodes, Scen
 }
 
 void load_lights(const tinygltf::Model& model, const NodeHierarchy& nodes, Scene& scene) {
-  size_t with_range = 0;
   for (const int i : nodes.in_scene) {
     const tinygltf::Node& node = model.nodes[static_cast<size_t>(i)];
     const auto extension = node.extensions.find("KHR_lights_punctual");
@@ -105,11 +104,9 @@ void load_lights(const tinygltf::Model& model, const NodeHierarchy& nodes, Scene
     for (int c = 0; c < 3 && !source.color.empty(); ++c)
       light.color[c] = static_cast<float>(source.color[static_cast<size_t>(c)]);
     light.intensity = static_cast<float>(source.intensity);
-    with_range += source.range > 0.0;
+    if (light.type != LightType::directional && source.range > 0.0) light.range = source.range;
     scene.lights.push_back(std::move(light));
   }
-  if (with_range > 0)
-    scene.ignored.push_back(fmt::format("lights with a range: {}, their light reaches further", with_range));
 }
 
 }  // namespace izb

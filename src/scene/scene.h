@@ -61,7 +61,8 @@ struct Light {
   glm::dvec3 position_ws{0.0};
   glm::dvec3 direction_ws{0.0, -1.0, 0.0};  ///< unit length
   glm::vec3 color{1.0f};                    ///< linear
-  float intensity = 1.0f;
+  float intensity = 1.0f;                   ///< lux, of a positional light candela
+  double range = 0.0;           ///< of a positional light: beyond it there is none of its light; 0: no limit
   double inner_cone_rad = 0.0;  ///< spot: half-angle
   double outer_cone_rad = 0.7853981633974483;
 };

@@ -83,6 +83,17 @@ Camera default_camera(const Bounds& bounds) {
   return camera;
 }
 
+const char* type_name(LightType type) {
+  switch (type) {
+    case LightType::directional:
+      return "directional";
+    case LightType::spot:
+      return "spot";
+    default:
+      return "point";
+  }
+}
+
 Light sun(double azimuth_deg, double elevation_deg) {
   const double azimuth_rad = glm::radians(azimuth_deg), elevation_rad = glm::radians(elevation_deg);
   const glm::dvec3 to_sun_ws(std::sin(azimuth_rad) * std::cos(elevation_rad), std::sin(elevation_rad),

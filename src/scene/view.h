@@ -18,6 +18,9 @@ Camera look_at(const glm::dvec3& eye_ws, const glm::dvec3& target_ws, double yfo
 /// A camera framed on the scene's bounds, for a scene that has none.
 Camera default_camera(const Bounds& bounds);
 
+/// "directional", "spot" or "point", as KHR_lights_punctual calls them.
+const char* type_name(LightType type);
+
 /// The sun: azimuth clockwise from -z (north) seen from above, elevation above the horizon, both in degrees.
 Light sun(double azimuth_deg, double elevation_deg);
 

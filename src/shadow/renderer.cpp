@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/renderer.h"
 
+#include <stdexcept>
+
 #include "base/error.h"
 #include "frame/read_back.h"
+#include "frame/spine.h"
 #include "shared/bindings.h"
 #include "shared/lists.h"
 
@@ -13,6 +16,12 @@ uint64_t sum_of(const Counts& counts) {
   uint64_t sum = 0;
   for (const auto& [name, count] : counts) sum += count;
   return sum;
+}
+
+int most_faces(const std::vector<Light>& lights, const GridRequest& grid) {
+  int faces = 1;
+  for (const Light& light : lights) faces = std::max(faces, grid_faces(light, grid));
+  return faces;
 }
 
 }  // namespace
@@ -28,78 +37,138 @@ Renderer::Renderer(const Scene& scene, const gpu::Capabilities& capabilities)
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
 }
 
-void Renderer::prepare(Technique& technique, int width_px, int height_px) {
+void Renderer::prepare(Technique& technique, int width_px, int height_px, const std::vector<Light>& lights) {
   const int64_t largest = std::min<int64_t>(capabilities_.max_texture_size, shared::largest_picture_px);
   if (width_px < 1 || height_px < 1 || width_px > largest || height_px > largest)
     fail("size {}x{} is outside what this GL driver takes, 1 to {} pixels a side", width_px, height_px, largest);
   if (const std::string reason = technique.missing(capabilities_); !reason.empty())
     fail("technique '{}' cannot run: {}", technique.info().name, reason);
   // What this object and the technique hold already is replaced, or needed again.
-  const uint64_t held = buffers_.bytes() + gbuffer_.gbuffer().bytes() + shade_.picture().bytes() +
-                        visibility_.mask.bytes() + sum_of(technique.memory());
+  uint64_t held = buffers_.bytes() + gbuffer_.gbuffer().bytes() + shade_.picture().bytes() + sum_of(technique.memory());
+  for (const Visibility& v : visibility_) held += v.mask.bytes();
   room_ = gpu::memory_room(capabilities_, held);
-  gpu::expect_room(memory_needed(technique, width_px, height_px), room_, capabilities_);
+  gpu::expect_room(memory_needed(technique, width_px, height_px, lights), room_, capabilities_);
   technique_ = &technique;
-  inputs_.samples = technique.samples();
-  const bool micro_quads = inputs_.samples.count() > 1;
+  common_ = {};
+  common_.samples = technique.samples();
+  const bool micro_quads = common_.samples.count() > 1;
   gbuffer_.resize(width_px, height_px, micro_quads);
   bounds_.prepare(micro_quads, technique.grid().cascades);
-  samples_block_.set(make_sample_frame(inputs_.samples, technique.grid()));
+  samples_block_.set(make_sample_frame(common_.samples, technique.grid()));
   shade_.resize(width_px, height_px);
-  visibility_.mask = gpu::Texture("mask", GL_R32UI, width_px, height_px);
-  technique.resize(width_px, height_px);
-  inputs_.width_px = width_px;
-  inputs_.height_px = height_px;
-  inputs_.gbuffer = &gbuffer_.gbuffer();
-  inputs_.first_triangle = &buffers_.draw_list().first_triangle;
-  inputs_.draw_casters = [this] { buffers_.draw_casters(); };
-  inputs_.triangles_vs = [this]() -> const std::vector<glm::vec3>& {
+  visibility_.clear();
+  for (size_t i = 0; i < lights.size(); ++i)
+    visibility_.push_back({gpu::Texture("mask", GL_R32UI, width_px, height_px)});
+  technique.resize({width_px, height_px, most_faces(lights, technique.grid())});
+  common_.width_px = width_px;
+  common_.height_px = height_px;
+  common_.gbuffer = &gbuffer_.gbuffer();
+  common_.first_triangle = &buffers_.draw_list().first_triangle;
+  common_.draw_casters = [this] { buffers_.draw_casters(); };
+  common_.triangles_vs = [this]() -> const std::vector<glm::vec3>& {
     if (triangles_vs_.empty()) triangles_vs_ = flatten(scene_, buffers_.draw_list(), instances_);
     return triangles_vs_;
   };
 }
 
-void Renderer::render(const Camera& camera, const Light& light, gpu::StageTimers& timers) {
-  inputs_.camera = make_camera_frame(camera, inputs_.width_px, inputs_.height_px);
-  inputs_.light = make_light_frame(camera, light, technique_->grid());
+void Renderer::select(size_t light, gpu::StageTimers& timers) {
+  const shared::LightFrame& its = inputs_[light].light;
+  light_block_.set(its);
+  light_block_.bind();
+  bounds_.render(static_cast<int>(its.grid.z), timers);
+  selected_ = light;
+}
+
+// The technique holds the lists of the light that it rendered last.
+void Renderer::select_again(size_t light) {
+  if (light == selected_) return;
+  gpu::StageTimers untimed(false);
+  select(light, untimed);
+  technique_->render(inputs_[light], visibility_[light], untimed);
+}
+
+void Renderer::render(const Camera& camera, const std::vector<Light>& lights, gpu::StageTimers& timers) {
+  if (lights.size() != visibility_.size()) throw std::logic_error("a frame with other lights than were prepared for");
+  common_.camera = make_camera_frame(camera, common_.width_px, common_.height_px);
+  inputs_.assign(lights.size(), common_);
+  faults_.assign(lights.size(), {});
+  for (size_t i = 0; i < lights.size(); ++i)
+    inputs_[i].light = make_light_frame(camera, common_.camera, lights[i], technique_->grid());
   instances_ = make_instance_frames(camera, scene_, buffers_.draw_list());
   triangles_vs_.clear();
   buffers_.update_instances(instances_);
-  camera_block_.set(inputs_.camera);
-  light_block_.set(inputs_.light);
-  shade_block_.set(make_shade_frame(camera, light));
+  camera_block_.set(common_.camera);
   camera_block_.bind();
-  light_block_.bind();
-  shade_block_.bind();
   samples_block_.bind();
 
   gbuffer_.render(buffers_, timers);
-  bounds_.render(timers);
-  technique_->render(inputs_, visibility_, timers);
-  shade_.render(visibility_.mask, timers);
+  for (size_t i = 0; i < lights.size(); ++i) {
+    select(i, timers);
+    technique_->render(inputs_[i], visibility_[i], timers);
+    if (lights.size() > 1) faults_[i] = technique_->fault();  // the next light's frame takes its place
+  }
+  shade(camera, lights, timers);
 }
 
-std::vector<uint32_t> Renderer::read_mask() const {
-  if (const std::string fault = technique_->fault(); !fault.empty())
-    fail("technique '{}': {}", technique_->info().name, fault);
-  return izb::read_mask(visibility_.mask);
+void Renderer::shade(const Camera& camera, const std::vector<Light>& lights, gpu::StageTimers& timers) {
+  const gpu::StageTimers::Scope scope(timers, name(Stage::shade));
+  const std::vector<double> weights = shade_weights(lights);
+  const auto bind = [&](size_t light) {
+    light_block_.set(inputs_[light].light);
+    shade_block_.set(make_shade_frame(camera, lights[light], weights[light]));
+    light_block_.bind();
+    shade_block_.bind();
+  };
+  shade_.begin();
+  if (exposure_is_measured(lights)) {
+    for (size_t i = 0; i < lights.size(); ++i) {
+      bind(i);
+      shade_.measure();
+    }
+    shade_.expose();
+  }
+  for (size_t i = 0; i < lights.size(); ++i) {
+    bind(i);
+    shade_.add(visibility_[i].mask, i == 0);
+  }
 }
 
-Counts Renderer::count() {
-  return technique_->count(inputs_, visibility_);
+std::vector<uint32_t> Renderer::read_mask(size_t light) const {
+  const std::string fault = light_count() > 1 ? faults_[light] : technique_->fault();
+  if (!fault.empty()) fail("technique '{}': {}", technique_->info().name, fault);
+  return izb::read_mask(visibility_[light].mask);
+}
+
+Counts Renderer::count(size_t light) {
+  select_again(light);
+  return technique_->count(inputs_[light], visibility_[light]);
+}
+
+std::vector<float> Renderer::list_lengths(size_t light) {
+  select_again(light);
+  return technique_->list_lengths(inputs_[light]);
+}
+
+std::vector<uint64_t> Renderer::list_histogram(size_t light) {
+  select_again(light);
+  return technique_->list_histogram(inputs_[light]);
 }
 
 Counts Renderer::memory() const {
+  uint64_t masks = 0;
+  for (const Visibility& v : visibility_) masks += v.mask.bytes();
   Counts counts;
-  counts.emplace_back(technique_->info().name, sum_of(technique_->memory()) + visibility_.mask.bytes());
+  counts.emplace_back(technique_->info().name, sum_of(technique_->memory()) + masks);
   counts.emplace_back("gbuffer", gbuffer_.gbuffer().bytes() + shade_.picture().bytes());
   counts.emplace_back("scene", buffers_.bytes());
   return counts;
 }
 
-gpu::Plans Renderer::memory_needed(const Technique& technique, int width_px, int height_px) const {
-  gpu::Plan its = technique.memory_needed(width_px, height_px);
-  its.push_back(gpu::planned_texture("mask", GL_R32UI, width_px, height_px, {"--size"}));
+gpu::Plans Renderer::memory_needed(const Technique& technique, int width_px, int height_px,
+                                   const std::vector<Light>& lights) const {
+  gpu::Plan its = technique.memory_needed({width_px, height_px, most_faces(lights, technique.grid())});
+  for (size_t i = 0; i < lights.size(); ++i)
+    its.push_back(gpu::planned_texture("mask", GL_R32UI, width_px, height_px, {"--size", "--light"}));
   gpu::Plan gbuffer = GBuffer::memory_needed(width_px, height_px, technique.samples().count() > 1);
   for (gpu::Planned& p : ShadeStage::memory_needed(width_px, height_px)) gbuffer.push_back(std::move(p));
   return {{technique.info().name, std::move(its)},

@@ -14,27 +14,38 @@ class Renderer {
   /// The scene must outlive the renderer. Throws izb::Error if the driver refuses a buffer or a program.
   Renderer(const Scene& scene, const gpu::Capabilities& capabilities);
 
-  /// Fixes size, technique and its options. Throws izb::Error if the size is beyond the driver's limits, there is too
-  /// little memory, or the technique lacks a capability.
-  void prepare(Technique& technique, int width_px, int height_px);
+  /// Fixes size, technique and its options, for frames with so many lights, each of which takes no more grids than
+  /// these do. Throws izb::Error if the size is beyond the driver's limits, there is too little memory, or the
+  /// technique lacks a capability.
+  void prepare(Technique& technique, int width_px, int height_px, const std::vector<Light>& lights);
 
-  /// One frame. Stage times go to `timers`.
-  void render(const Camera& camera, const Light& light, gpu::StageTimers& timers);
+  /// One frame: the G-buffer, a mask for each light, one picture of all. Stage times go to `timers`, summed over the
+  /// lights once it collects.
+  void render(const Camera& camera, const std::vector<Light>& lights, gpu::StageTimers& timers);
 
-  /// Counts of the last frame, by a frame of their own.
-  Counts count();
-
-  const FrameInputs& inputs() const { return inputs_; }  ///< of the last frame
-  const gpu::Texture& mask() const { return visibility_.mask; }
-  /// The words of the last frame's mask, top row first. Throws izb::Error where the technique says that they are wrong.
-  std::vector<uint32_t> read_mask() const;
+  size_t light_count() const { return inputs_.size(); }
+  /// Of the last frame under its light number `light`.
+  const FrameInputs& inputs(size_t light = 0) const { return inputs_[light]; }
+  const gpu::Texture& mask(size_t light = 0) const { return visibility_[light].mask; }
+  /// The words of that mask, top row first. Throws izb::Error where the technique says that they are wrong.
+  std::vector<uint32_t> read_mask(size_t light = 0) const;
   const gpu::Texture& picture() const { return shade_.picture(); }
+  /// What the lights' strength was multiplied by, so that the picture is neither black nor white.
+  float exposure() const { return shade_.read_exposure().scale.x; }
+
+  /// Counts of the last frame under one of its lights, by a frame of their own; and what the technique says of its
+  /// lists.
+  Counts count(size_t light = 0);
+  std::vector<float> list_lengths(size_t light = 0);
+  std::vector<uint64_t> list_histogram(size_t light = 0);
+
   const BoundsStage& bounds() const { return bounds_; }
   const SceneBuffers& scene_buffers() const { return buffers_; }
   /// GPU memory by group: "izb" or the technique's name with the mask, "gbuffer" with the picture, "scene".
   Counts memory() const;
   /// What memory() will be after prepare(), before exact insertion's pool grows.
-  gpu::Plans memory_needed(const Technique& technique, int width_px, int height_px) const;
+  gpu::Plans memory_needed(const Technique& technique, int width_px, int height_px,
+                           const std::vector<Light>& lights) const;
   /// What there was for all of it at the last prepare().
   const gpu::Room& room() const { return room_; }
 
@@ -42,6 +53,12 @@ class Renderer {
   static std::vector<gpu::ProgramSpec> program_specs();
 
  private:
+  /// Binds that light of the last frame and fits its windows, as a technique finds them.
+  void select(size_t light, gpu::StageTimers& timers);
+  /// So that the technique is as that light left it.
+  void select_again(size_t light);
+  void shade(const Camera& camera, const std::vector<Light>& lights, gpu::StageTimers& timers);
+
   const Scene& scene_;
   gpu::Capabilities capabilities_;
   SceneBuffers buffers_;
@@ -54,8 +71,11 @@ class Renderer {
   UniformBlock<shared::ShadeFrame> shade_block_;
   UniformBlock<shared::SampleFrame> samples_block_;
   gpu::Room room_;
-  Visibility visibility_;
-  FrameInputs inputs_;
+  std::vector<Visibility> visibility_;  ///< one a light
+  std::vector<FrameInputs> inputs_;     ///< one a light
+  std::vector<std::string> faults_;     ///< of each light's mask, empty: none
+  FrameInputs common_;                  ///< what all lights share
+  size_t selected_ = 0;
   std::vector<shared::InstanceFrame> instances_;
   std::vector<glm::vec3> triangles_vs_;  ///< of the last frame, once asked for
 };

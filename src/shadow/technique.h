@@ -44,8 +44,8 @@ class Technique {
   virtual SamplePattern samples() const = 0;
   /// What it asks of the light-space grid that the bounds stage fits.
   virtual GridRequest grid() const = 0;
-  /// Compiles and allocates for a size and the options' values. Throws izb::Error if the driver refuses.
-  virtual void resize(int width_px, int height_px) = 0;
+  /// Compiles and allocates for a shape and the options' values. Throws izb::Error if the driver refuses.
+  virtual void resize(const FrameShape& shape) = 0;
   /// Fills `out.mask`. Uniform blocks of camera and light, and the light's window, are bound.
   virtual void render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) = 0;
   /// Why the frame just rendered is not what it should be: one sentence, or empty.
@@ -55,7 +55,7 @@ class Technique {
   /// GPU memory of its own, by name, in bytes; the mask is the frame's.
   virtual Counts memory() const = 0;
   /// What resize() would take with the options as they are, part by part as memory() names them. Needs no GL.
-  virtual gpu::Plan memory_needed(int width_px, int height_px) const = 0;
+  virtual gpu::Plan memory_needed(const FrameShape& shape) const = 0;
   /// Of the last frame's lists as they were built: length of the longest in which each pixel stands (bottom row first),
   /// or empty if it has no lists.
   virtual std::vector<float> list_lengths(const FrameInputs&) { return {}; }

@@ -364,7 +364,8 @@ TEST_F(Gltf, Lights) {
   EXPECT_EQ(point.type, LightType::point);
   EXPECT_EQ(point.name, "bulb");
   EXPECT_TRUE(says(scene, "light 'panel' of type 'area' is left out"));
-  EXPECT_TRUE(says(scene, "lights with a range: 1"));
+  EXPECT_EQ(spot.range, 9.0);
+  EXPECT_EQ(point.range, 0.0);
 }
 
 TEST_F(Gltf, ASkinPlacesItsMesh) {

@@ -316,7 +316,7 @@ TEST(Settle, CandidatesMissNoOccluder) {
 TEST(Settle, CandidatesIncludeATriangleThatAlmostTouchesTheLamp) {
   const LightPoint lamp{{0.1f, 0.3f, -0.2f}, true};
   Triangles ceiling;
-  add_rectangle(ceiling, -20.0f, 20.0f, -20.0f, 20.0f, 0.3f - 1e-6f);
+  add_rectangle(ceiling, -20.0f, 20.0f, -20.0f, 20.0f, 0.3f - 1e-4f);
   const std::vector<Ball> balls{{{-3, -1, 2}, 1e-3f, no_own_triangle}, {{3, -1, -2}, 1e-3f, no_own_triangle}};
   const Candidates candidates = find_candidates(ceiling, lamp, balls);
   for (size_t i = 0; i < balls.size(); ++i) {

@@ -247,7 +247,7 @@ TEST(SharedFootprint, CostsLittleMoreThanTheTexelsItMust) {
   shared::LightWindow window{};
   window.window = glm::vec4(0, 0, 1, 1);
   window.depth = glm::vec4(0.5f, 0.001f, 0, 0);
-  window.guard = glm::vec4(0, 1, 0, 0);
+  window.guard = glm::vec4(0, 256, 0, 0);
   double needle_area = 0.0, needle_box = 0.0;
   for (int i = 0; i < 1000; ++i) {
     const glm::dvec3 x = glm::vec3(light.axis_x), y = glm::vec3(light.axis_y);
@@ -273,7 +273,7 @@ TEST(SharedFootprint, ATriangleAcrossTheLightsPlaneCostsTheBoxOfItsPartInFront) 
     Setting s{make_light(random.direction(), &lamp, 64), {}};
     s.window.window = glm::vec4(-1, -1, 32, 32);  // 45 degrees to each side
     s.window.depth = glm::vec4(0.5f, 0.001f, 0, 0);
-    s.window.guard = glm::vec4(0, 1, 0, 0);
+    s.window.guard = glm::vec4(0, 64, 0, 0);
     const glm::dvec3 z = glm::vec3(s.light.axis_z), center = random.point(1.0);
     const glm::dvec3 a = center + random.point(2.0), b = center + random.point(2.0), c = center + random.point(2.0);
     const double nearest = std::min({glm::dot(a, z), glm::dot(b, z), glm::dot(c, z)});

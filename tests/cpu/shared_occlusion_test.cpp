@@ -189,6 +189,47 @@ TEST(SharedOcclusion, AHugeTriangleIsNeverCalledOut) {
   }
 }
 
+TEST(SharedOcclusion, APlaneThatHoldsTheLightCastsNothingHereAndInTheTruth) {
+  Random random(97);
+  const glm::dvec3 lamp(0.5, 1.0, -10.0);
+  int holding = 0, close = 0;
+  for (int i = 0; i < 20000; ++i) {
+    shared::LightFrame light = make_light(random.direction(), &lamp);
+    light.axis_x.w = i % 2 == 0 ? 0.0f : 1e-3f;
+    const reference::LightPoint point{glm::vec3(light.origin), true, light.axis_x.w};
+    const glm::dvec3 n = random.direction();
+    const double off = std::pow(10.0, random.uniform(-8.0, -1.0));
+    const auto on_plane = [&] {
+      const glm::dvec3 p = random.point(6.0);
+      return glm::vec3(lamp + p - n * glm::dot(n, p) + n * off);
+    };
+    const glm::vec3 a = on_plane(), b = on_plane(), c = on_plane();
+    const bool ours = shared::holds_light(light, a, b, c);
+    const double band = light.axis_x.w + 16.0 * 0x1p-24 * shared::max_norm1(a, b, c);
+    EXPECT_EQ(ours, reference::holds_light({a, b, c}, point)) << i;
+    // The plane itself is off by its vertices' rounding, which a needle magnifies.
+    const glm::dvec3 e1 = glm::normalize(glm::dvec3(b) - glm::dvec3(a)),
+                     e2 = glm::normalize(glm::dvec3(c) - glm::dvec3(a));
+    if (glm::length(glm::cross(e1, e2)) < 0.3) continue;
+    if (off < 0.3 * band) {
+      EXPECT_TRUE(ours) << i;
+    }
+    if (off > 3.0 * band + 1e-5) {
+      EXPECT_FALSE(ours) << i;
+    }
+    holding += ours, close += !ours && off < 10.0 * band;
+    if (ours) {
+      const glm::vec3 inside = (a + b + c) / 3.0f;
+      const glm::vec3 behind(lamp + (glm::dvec3(inside) - lamp) * 2.0 + n * off);
+      const shared::CameraFrame camera = perspective_camera();
+      EXPECT_FALSE(shared::occludes(camera, light, a, b, c, behind, 10.0f)) << i;
+      EXPECT_FALSE(reference::occluded_exact(glm::dvec3(behind), {a, b, c}, point)) << i;
+    }
+  }
+  EXPECT_GT(holding, 3000);
+  EXPECT_GT(close, 500);
+}
+
 TEST(SharedOcclusion, ASpotIsNotShadowedFromBehindOrBeyond) {
   const shared::CameraFrame camera = perspective_camera();
   const glm::dvec3 lamp(0, 3, -10);

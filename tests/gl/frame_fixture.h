@@ -12,6 +12,7 @@
 #include "scene/view.h"
 #include "shadow/ray_traced/receivers.h"
 #include "shadow/renderer.h"
+#include "shared/coverage.h"
 #include "shared/occlusion.h"
 #include "shared_fixture.h"
 
@@ -71,8 +72,8 @@ struct Frame {
   std::vector<uint32_t> mask;
   GBufferImage gbuffer;
   FrameInputs inputs;
-  shared::LightWindow window;                ///< of the first cascade
-  std::vector<shared::LightWindow> windows;  ///< of each cascade
+  shared::LightWindow window;                ///< of the first layer
+  std::vector<shared::LightWindow> windows;  ///< of each layer
   shared::CascadeRange range;
   std::vector<glm::vec3> triangles_vs;
   reference::Receivers receivers;
@@ -95,8 +96,7 @@ inline Settings with(Settings settings, const Settings& more) {
   return settings;
 }
 
-inline Frame render_frame(const Scene& scene, const Camera& camera, const Light& light, int width_px, int height_px,
-                          const Settings& settings, Technique& technique) {
+inline void set_options(Technique& technique, const Settings& settings) {
   const OptionSet options = technique.options();
   for (const auto& [name, value] : with({{"spp", "1"}}, settings)) {
     bool known = false;
@@ -104,14 +104,17 @@ inline Frame render_frame(const Scene& scene, const Camera& camera, const Light&
       if (option.name == name) option.set(value), known = true;
     EXPECT_TRUE(known) << "no option " << name;
   }
-  Renderer renderer(scene, capabilities());
-  renderer.prepare(technique, width_px, height_px);
+}
+
+/// Renders by a renderer that was prepared for the technique, and reads everything back.
+inline Frame render_frame(Renderer& renderer, Technique& technique, const Camera& camera, const Light& light) {
   gpu::StageTimers timers(true);
-  renderer.render(camera, light, timers);
+  renderer.render(camera, {light}, timers);
   Frame frame;
   frame.mask = renderer.read_mask();
   frame.inputs = renderer.inputs();
-  for (int i = 0; i < technique.grid().cascades; ++i) frame.windows.push_back(renderer.bounds().read_window(i));
+  const int layers = technique.grid().cascades * static_cast<int>(frame.inputs.light.grid.z);
+  for (int i = 0; i < layers; ++i) frame.windows.push_back(renderer.bounds().read_window(i));
   frame.window = frame.windows[0];
   frame.range = renderer.bounds().read_cascades();
   frame.gbuffer = read_gbuffer(*frame.inputs.gbuffer);
@@ -119,9 +122,17 @@ inline Frame render_frame(const Scene& scene, const Camera& camera, const Light&
   frame.receivers = make_receivers(frame.gbuffer, frame.inputs);
   frame.light = make_light_point(frame.inputs.light);
   if (std::vector<float> lengths = technique.list_lengths(frame.inputs); !lengths.empty())
-    frame.list_lengths = flip_rows(std::move(lengths), width_px, height_px);
+    frame.list_lengths = flip_rows(std::move(lengths), frame.gbuffer.width_px, frame.gbuffer.height_px);
   frame.counts = renderer.count();
   return frame;
+}
+
+inline Frame render_frame(const Scene& scene, const Camera& camera, const Light& light, int width_px, int height_px,
+                          const Settings& settings, Technique& technique) {
+  set_options(technique, settings);
+  Renderer renderer(scene, capabilities());
+  renderer.prepare(technique, width_px, height_px, {light});
+  return render_frame(renderer, technique, camera, light);
 }
 
 inline Frame render_frame(const Scene& scene, const Camera& camera, const Light& light, int width_px, int height_px,
@@ -141,6 +152,24 @@ inline std::vector<uint32_t> brute_force_mask(const Frame& frame) {
                            frame.triangles_vs[3 * k + 1], frame.triangles_vs[3 * k + 2], frame.receivers.points_vs[i],
                            t))
         mask[i] = 0xffffffffu;
+  }
+  return mask;
+}
+
+inline std::vector<uint32_t> brute_force_words(const Frame& frame) {
+  const FrameInputs& in = frame.inputs;
+  std::vector<uint32_t> mask(frame.mask.size(), 0u);
+  for (size_t i = 0; i < mask.size(); ++i) {
+    if (frame.receivers.classes[i] != reference::PixelClass::receiver) continue;
+    const glm::ivec2 px(frame.gbuffer.center_px(i));
+    for (size_t k = 0; k < frame.triangles_vs.size() / 3; ++k) {
+      if (k == frame.receivers.own_triangle[i]) continue;
+      const glm::vec3* v = &frame.triangles_vs[3 * k];
+      const shared::QuadPlanes planes =
+          shared::quad_planes(in.camera, in.light, v[0], v[1], v[2], px, frame.gbuffer.micro_quad[i]);
+      for (int s = 0; s < 32; ++s)
+        if (shared::occluded_sample(planes, in.samples.offsets_px[size_t(s)])) mask[i] |= 1u << s;
+    }
   }
   return mask;
 }
@@ -178,6 +207,13 @@ inline Light spot(const glm::dvec3& position_ws, const glm::dvec3& target_ws, do
   light.direction_ws = glm::normalize(target_ws - position_ws);
   light.outer_cone_rad = glm::radians(half_angle_deg);
   light.inner_cone_rad = 0.9 * light.outer_cone_rad;
+  return light;
+}
+
+inline Light point_light(const glm::dvec3& position_ws) {
+  Light light;
+  light.type = LightType::point;
+  light.position_ws = position_ws;
   return light;
 }
 

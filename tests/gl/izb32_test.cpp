@@ -16,24 +16,6 @@ constexpr int width_px = 48, height_px = 36;
 const Camera camera = look_at({4.0, 5.0, 7.0}, {0, 0.6, 0}, glm::radians(50.0));
 const Settings exact{{"spp", "32"}, {"coverage", "exact"}, {"insertion", "exact"}};
 
-std::vector<uint32_t> brute_force_words(const Frame& frame) {
-  const FrameInputs& in = frame.inputs;
-  std::vector<uint32_t> mask(frame.mask.size(), 0u);
-  for (size_t i = 0; i < mask.size(); ++i) {
-    if (frame.receivers.classes[i] != reference::PixelClass::receiver) continue;
-    const glm::ivec2 px(frame.gbuffer.center_px(i));
-    for (size_t k = 0; k < frame.triangles_vs.size() / 3; ++k) {
-      if (k == frame.receivers.own_triangle[i]) continue;
-      const glm::vec3* v = &frame.triangles_vs[3 * k];
-      const shared::QuadPlanes planes =
-          shared::quad_planes(in.camera, in.light, v[0], v[1], v[2], px, frame.gbuffer.micro_quad[i]);
-      for (int s = 0; s < 32; ++s)
-        if (shared::occluded_sample(planes, in.samples.offsets_px[size_t(s)])) mask[i] |= 1u << s;
-    }
-  }
-  return mask;
-}
-
 size_t partly(const Frame& frame) {
   return static_cast<size_t>(
       std::count_if(frame.mask.begin(), frame.mask.end(), [](uint32_t word) { return word != 0u && word != ~0u; }));
@@ -112,13 +94,29 @@ TEST(Izb32, AListBeyondTheDriversLoopsIsANamedRefusal) {
 TEST(Izb32, AMicroQuadMayTouchAnyNumberOfTexels) {
   const auto render = [](const char* grid) {
     return render_frame(tangle(81, 300), look_at({0, 9, 0.1}, {0, 0, 0}, glm::radians(40.0)), sun(130, 65), 2, 2,
-                        with(exact, {{"grid", grid}}));
+                        with(exact, {{"grid", grid}, {"grid-density", "0"}}));
   };
   const Frame fine = render("1024"), coarse = render("16");
   EXPECT_GT(fine.count("nodes"), uint64_t{2 * 2 * 2} * shared::texels_a_dispatch);  // three dispatches
   EXPECT_EQ(different(fine.mask, coarse.mask), 0u);
   EXPECT_EQ(different(fine.mask, brute_force_words(fine)), 0u);
   EXPECT_GT(partly(fine), 2u);
+}
+
+// Where a window holds few receivers for its grid, fewer and larger texels meet fewer triangles.
+TEST(Izb32, ADensityLimitSavesWorkAndChangesNoExactMask) {
+  const Scene scene = tangle(81, 300);
+  const Settings fine = with(exact, {{"cascades", "3"}, {"grid", "512"}, {"grid-density", "0"}});
+  const Frame all = render_frame(scene, camera, sun(130, 35), width_px, height_px, fine);
+  const Frame limited =
+      render_frame(scene, camera, sun(130, 35), width_px, height_px, with(fine, {{"grid-density", "4"}}));
+  EXPECT_EQ(different(all.mask, limited.mask), 0u);
+  EXPECT_LT(limited.count("fragments_after_zcull"), all.count("fragments_after_zcull") / 4);
+  EXPECT_LT(limited.count("nodes"), all.count("nodes") / 4);
+  for (size_t i = 0; i < limited.windows.size(); ++i) {
+    EXPECT_LT(shared::last_texel(limited.windows[i]), 140) << i;
+    EXPECT_EQ(shared::last_texel(all.windows[i]), 511) << i;
+  }
 }
 
 TEST(Izb32, OneSampleDependsOnNoOptionEither) {

@@ -7,7 +7,7 @@
 
 #include "gl/frame_fixture.h"
 #include "shadow/izb/izb.h"
-#include "shared/insertion.h"
+#include "shared/faces.h"
 
 namespace izb::test {
 namespace {
@@ -16,13 +16,13 @@ constexpr int width_px = 96, height_px = 64;
 const Camera camera = look_at({4.0, 5.0, 7.0}, {0, 0.6, 0}, glm::radians(50.0));
 
 std::vector<Light> lights() {
-  return {sun(130, 35), sun(20, 60), spot({1, 5, 2}, {0, 0, 0}, 55)};
+  return {sun(130, 35), sun(20, 60), spot({1, 5, 2}, {0, 0, 0}, 55), point_light({0.4, 1.7, 0.9})};
 }
 
 /// Where a node stands, and which.
 struct Place {
   glm::ivec2 texel;
-  int cascade, slot;
+  int layer, slot;
 };
 
 /// A frame and its irregular z-buffer.
@@ -39,8 +39,20 @@ struct Built {
 
   const shared::LightFrame& light() const { return frame.inputs.light; }
   bool receiver(size_t i) const { return frame.receivers.classes[i] == reference::PixelClass::receiver; }
-  int cascade(size_t i) const { return shared::cascade_of(frame.range, izb.cascades, frame.gbuffer.eye_distance[i]); }
-  const shared::LightWindow& window(size_t i) const { return frame.windows[size_t(cascade(i))]; }
+  int cascades() const { return int(light().grid.y); }
+  /// The face through which the light sees the pixel's centre.
+  int face(size_t i) const {
+    if (light().grid.z == 1) return 0;
+    return shared::face_of(shared::light_position(light(), frame.receivers.points_vs[i]));
+  }
+  int layer_at(size_t i, int face) const {
+    return face * cascades() + shared::cascade_of(frame.range, cascades(), frame.gbuffer.eye_distance[i]);
+  }
+  int layer(size_t i) const { return layer_at(i, face(i)); }
+  shared::LightFrame face_light(size_t i) const { return shared::light_face(light(), face(i)); }
+  const shared::LightWindow& window(size_t i) const { return frame.windows[size_t(layer(i))]; }
+  /// Whether that face sees all of the micro-quad.
+  bool whole(size_t i) const { return light().grid.z == 1 || shared::quad_part(light(), quad(i), face(i)).whole; }
   /// Of a pixel in the frame's images, top row first.
   static size_t index(uint32_t node) {
     const glm::ivec2 px = shared::pixel_from_node(node);
@@ -50,37 +62,41 @@ struct Built {
   /// Grid position and depth of a pixel's centre.
   glm::vec3 position(size_t i) const {
     return shared::grid_position(
-        window(i), shared::light_uvd(light(), shared::light_position(light(), frame.receivers.points_vs[i])));
+        window(i), shared::light_uvd(light(), shared::light_position(face_light(i), frame.receivers.points_vs[i])));
   }
   shared::MicroQuad quad(size_t i) const {
     return shared::make_micro_quad(frame.inputs.camera, glm::ivec2(frame.gbuffer.center_px(i)),
                                    frame.gbuffer.micro_quad[i]);
   }
   glm::vec3 grid_position(size_t i, const glm::vec2& offset_px) const {
-    return shared::grid_position(window(i), shared::micro_quad_uvd(light(), quad(i), offset_px));
+    return shared::grid_position(window(i), shared::micro_quad_uvd(face_light(i), quad(i), offset_px));
   }
   glm::ivec2 texel(size_t i, const glm::vec2& offset_px) const {
-    return shared::grid_texel(light(), grid_position(i, offset_px));
+    return shared::grid_texel(window(i), grid_position(i, offset_px));
   }
-  /// Depth of the pixel's node as `furthest` counts it.
-  float depth(size_t i) const {
-    if (!frame.gbuffer.micro_quad.empty()) return shared::project_quad(light(), window(i), quad(i)).deepest;
-    return position(i).z + window(i).depth.z;
+  /// Depth of the pixel's node in that layer as `furthest` counts it.
+  float depth(size_t i, int layer) const {
+    if (frame.gbuffer.micro_quad.empty()) return position(i).z + window(i).depth.z;
+    const int f = layer / cascades();
+    const shared::LightFrame its = shared::light_face(light(), f);
+    const shared::QuadPart part =
+        light().grid.z == 1 ? shared::whole_quad(light(), quad(i)) : shared::quad_part(light(), quad(i), f);
+    return shared::part_on_grid(its, frame.windows[size_t(layer)], quad(i), part).deepest;
   }
 
-  /// Visits (at, cascade, list) for each texel of each grid.
+  /// Visits (at, layer, list) for each texel of each grid.
   template <typename Visit>
   void for_each_texel(Visit&& visit) const {
-    for (int cascade = 0; cascade < izb.cascades; ++cascade)
+    for (int layer = 0; layer < izb.layers; ++layer)
       for (int y = 0; y < izb.grid; ++y)
-        for (int x = 0; x < izb.grid; ++x) visit(glm::ivec2(x, y), cascade, izb.lists[izb.texel({x, y}, cascade)]);
+        for (int x = 0; x < izb.grid; ++x) visit(glm::ivec2(x, y), layer, izb.lists[izb.texel({x, y}, layer)]);
   }
 
   /// Where each pixel's nodes stand, by slot, then by texel.
   std::vector<std::vector<Place>> places() const {
     std::vector<std::vector<Place>> all(frame.mask.size());
-    for_each_texel([&](const glm::ivec2& at, int cascade, std::span<const uint32_t> list) {
-      for (const uint32_t node : list) all[index(node)].push_back({at, cascade, shared::slot_from_node(node)});
+    for_each_texel([&](const glm::ivec2& at, int layer, std::span<const uint32_t> list) {
+      for (const uint32_t node : list) all[index(node)].push_back({at, layer, shared::slot_from_node(node)});
     });
     for (std::vector<Place>& places : all)
       std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.slot < b.slot; });
@@ -106,9 +122,9 @@ TEST(IzbBuild, EachReceiverStandsInTheListOfItsTexelAndNowhereElse) {
         ASSERT_EQ(places[i].size(), built.receiver(i) ? 1u : 0u) << i;
         if (places[i].empty()) continue;
         const Place& place = places[i][0];
-        ASSERT_EQ(place.cascade, built.cascade(i)) << i;
+        ASSERT_EQ(place.layer, built.layer(i)) << i;
         ++nodes;
-        if (place.texel == shared::grid_texel(built.light(), built.position(i))) continue;
+        if (place.texel == shared::grid_texel(built.window(i), built.position(i))) continue;
         // The shader's sums and divisions may round in another way, each within the guard.
         ++elsewhere;
         EXPECT_LE(outside(built.position(i), place.texel), 2.0f * built.window(i).guard.x) << i;
@@ -121,14 +137,14 @@ TEST(IzbBuild, EachReceiverStandsInTheListOfItsTexelAndNowhereElse) {
 /// Expects each texel's furthest depth to be that of its list.
 void expect_furthest(const Built& built) {
   size_t lists = 0;
-  built.for_each_texel([&](const glm::ivec2& at, int cascade, std::span<const uint32_t> list) {
-    const float furthest = built.izb.furthest[built.izb.texel(at, cascade)];
+  built.for_each_texel([&](const glm::ivec2& at, int layer, std::span<const uint32_t> list) {
+    const float furthest = built.izb.furthest[built.izb.texel(at, layer)];
     float expected = 0.0f;
-    for (const uint32_t node : list) expected = std::max(expected, built.depth(Built::index(node)));
+    for (const uint32_t node : list) expected = std::max(expected, built.depth(Built::index(node), layer));
     lists += !list.empty();
     // Sums may round in another way, but by less than the guard, so that one that is missing shows.
     ASSERT_NEAR(furthest, expected, list.empty() ? 0.0f : 8.0f * shared::unit_roundoff)
-        << at.x << " " << at.y << " " << cascade;
+        << at.x << " " << at.y << " " << layer;
   });
   EXPECT_GT(lists, 100u);
 }
@@ -139,7 +155,8 @@ TEST(IzbBuild, TheFurthestDepthIsThatOfTheList) {
     for (const Settings& settings : {Settings{{"grid", "64"}}, Settings{{"grid", "256"}, {"cascades", "3"}},
                                      Settings{{"grid", "64"}, {"spp", "32"}}})
       expect_furthest(Built(scene, light, settings));
-  expect_furthest(Built(scene, lights()[0], {{"grid", "64"}, {"spp", "32"}, {"insertion", "exact"}}));
+  for (const Light& light : {lights()[0], lights()[3]})
+    expect_furthest(Built(scene, light, {{"grid", "64"}, {"spp", "32"}, {"insertion", "exact"}}));
 }
 
 /// Texels of points of the micro-quad, each once.
@@ -169,8 +186,9 @@ std::vector<glm::ivec2> texels_along_view(const Built& built, size_t i, int coun
 
 /// Those that answer for the whole micro-quad, or what there is room for.
 std::vector<glm::ivec2> covering_texels(const Built& built, size_t i, int most) {
-  const shared::Cover cover = shared::make_cover(shared::project_quad(built.light(), built.window(i), built.quad(i)),
-                                                 1.0f, built.window(i).guard.x + 0.001f, built.izb.grid - 1, most);
+  const shared::Cover cover =
+      shared::make_cover(shared::project_quad(built.face_light(i), built.window(i), built.quad(i)), 1.0f,
+                         built.window(i).guard.x + 0.001f, shared::last_texel(built.window(i)), most);
   const glm::vec2 axis = view_axis(built, i);
   const glm::vec3 ends = glm::abs(built.grid_position(i, axis) - built.grid_position(i, -axis));
   if (cover.rows.count < cover.rows.needed && std::max(ends.x, ends.y) > 0.5f * cover.long_side)
@@ -197,23 +215,28 @@ TEST(IzbBuild, ApproximateInsertionPutsNodesWhereItSays) {
   const Scene scene = tangle(102, 200);
   const std::pair<std::string, int> ways[] = {{"approximate", 8}, {"approximate", 3}, {"nv", 8}, {"samples", 8}};
   for (const auto& [insertion, most] : ways)
-    for (const Light& light : {lights()[0], lights()[2]}) {
+    for (const Light& light : {lights()[0], lights()[2], lights()[3]}) {
       const Built built(scene, light,
                         {{"spp", "32"},
                          {"grid", "512"},
+                         {"grid-density", "0"},
                          {"cascades", "2"},
                          {"insertion", insertion},
                          {"nodes", std::to_string(most)}});
       const std::vector<std::vector<Place>> places = built.places();
-      size_t pixels = 0, nodes = 0, elsewhere = 0;
+      size_t pixels = 0, nodes = 0, elsewhere = 0, across = 0;
       for (size_t i = 0; i < places.size(); ++i) {
         if (!built.receiver(i)) {
           ASSERT_TRUE(places[i].empty()) << i;
           continue;
         }
+        if (!built.whole(i)) {
+          ++across;
+          continue;
+        }
         std::vector<glm::ivec2> texels;
         for (const Place& place : places[i]) {
-          ASSERT_EQ(place.cascade, built.cascade(i)) << i;
+          ASSERT_EQ(place.layer, built.layer(i)) << i;
           ASSERT_EQ(place.slot, int(texels.size())) << i;
           ASSERT_EQ(std::count(texels.begin(), texels.end(), place.texel), 0) << i;
           texels.push_back(place.texel);
@@ -232,14 +255,15 @@ TEST(IzbBuild, ApproximateInsertionPutsNodesWhereItSays) {
         }
       }
       EXPECT_GT(pixels, 1000u);
+      EXPECT_LT(across, 300u);
       EXPECT_GT(nodes, 2 * pixels);
       EXPECT_LE(elsewhere, pixels / 200) << insertion;  // where a length or a position lies within rounding of a whole
     }
 }
 
-/// The micro-quad's corners on the grid, in double; none comes near the plane of a spot's position here.
+/// The corners of a micro-quad that one face sees all of on the grid, in double.
 std::array<glm::dvec2, 4> corners_in_double(const Built& built, size_t i) {
-  const shared::LightFrame& light = built.light();
+  const shared::LightFrame light = built.face_light(i);
   const shared::MicroQuad quad = built.quad(i);
   const auto along = [&](const glm::vec4& axis, const glm::dvec3& p) {
     return glm::dot(glm::dvec3(glm::vec3(axis)), p - glm::dvec3(glm::vec3(light.origin)));
@@ -273,22 +297,50 @@ bool meets(const std::array<glm::dvec2, 4>& quad, const glm::ivec2& texel, doubl
   });
 }
 
+/// Expects points of a micro-quad that several faces see each to stand in the texel where its face sees it.
+void expect_points_in(const Built& built, size_t i, const std::set<std::array<int, 3>>& texels) {
+  const shared::MicroQuad quad = built.quad(i);
+  Random random(static_cast<uint32_t>(i));
+  for (int k = 0; k < 200; ++k) {
+    const glm::dvec2 o(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5));
+    const glm::dvec3 p = point_in_double(quad, o);
+    const int f = shared::face_of(shared::light_position(built.light(), glm::vec3(p)));
+    const shared::LightFrame face = shared::light_face(built.light(), f);
+    const int layer = built.layer_at(i, f);
+    const glm::vec4 window = built.frame.windows[size_t(layer)].window;
+    const auto along = [&](const glm::vec4& axis) {
+      return glm::dot(glm::dvec3(glm::vec3(axis)), p - glm::dvec3(glm::vec3(face.origin)));
+    };
+    const double z = along(face.axis_z);
+    const glm::dvec2 at((along(face.axis_x) / z - window.x) * window.z, (along(face.axis_y) / z - window.y) * window.w);
+    const glm::ivec2 texel =
+        glm::clamp(glm::ivec2(glm::floor(at)), 0, shared::last_texel(built.frame.windows[size_t(layer)]));
+    ASSERT_TRUE(texels.contains({texel.x, texel.y, layer})) << i << ": " << texel.x << " " << texel.y << " " << f;
+  }
+}
+
 TEST(IzbBuild, ExactInsertionPutsANodeIntoEachTexelThatTheMicroQuadTouchesAndIntoNoneAway) {
   const Scene scene = tangle(103, 200);
-  for (const Light& light : {lights()[0], lights()[2]}) {
+  for (const Light& light : {lights()[0], lights()[2], lights()[3]}) {
     const Built built(scene, light, {{"spp", "32"}, {"insertion", "exact"}, {"grid", "256"}, {"cascades", "2"}});
     const std::vector<std::vector<Place>> places = built.places();
-    size_t nodes = 0, touched = 0;
+    size_t nodes = 0, touched = 0, across = 0;
     for (size_t i = 0; i < places.size(); ++i) {
       if (!built.receiver(i)) {
         ASSERT_TRUE(places[i].empty()) << i;
         continue;
       }
+      std::set<std::array<int, 3>> texels;
+      for (const Place& place : places[i])
+        ASSERT_TRUE(texels.insert({place.texel.x, place.texel.y, place.layer}).second) << "twice in one list: " << i;
+      if (!built.whole(i)) {
+        ++across;
+        expect_points_in(built, i, texels);
+        continue;
+      }
       const std::array<glm::dvec2, 4> quad = corners_in_double(built, i);
-      std::set<std::pair<int, int>> texels;
       for (const Place& place : places[i]) {
-        ASSERT_EQ(place.cascade, built.cascade(i)) << i;
-        ASSERT_TRUE(texels.emplace(place.texel.x, place.texel.y).second) << "twice in one list: " << i;
+        ASSERT_EQ(place.layer, built.layer(i)) << i;
         ASSERT_TRUE(meets(quad, place.texel, double(built.window(i).guard.x) + 0.002)) << i;
       }
       glm::dvec2 low = quad[0], high = quad[0];
@@ -296,15 +348,18 @@ TEST(IzbBuild, ExactInsertionPutsANodeIntoEachTexelThatTheMicroQuadTouchesAndInt
       for (int y = int(std::floor(low.y)); y <= int(std::floor(high.y)); ++y)
         for (int x = int(std::floor(low.x)); x <= int(std::floor(high.x)); ++x)
           if (meets(quad, {x, y}, 0.0)) {
-            ASSERT_TRUE(texels.contains({x, y})) << i << ": " << x << " " << y;
+            ASSERT_TRUE(texels.contains({x, y, built.layer(i)})) << i << ": " << x << " " << y;
             ++touched;
           }
       nodes += texels.size();
     }
     EXPECT_GT(touched, 5000u);
-    // A spot's guard is several texels wide here, and all of those get nodes.
+    // A positional light's guard is several texels wide here, and all of those get nodes.
     if (light.type == LightType::directional) {
       EXPECT_LT(nodes, touched * 11 / 10);
+    } else {
+      EXPECT_GT(across, 20u);
+      EXPECT_LT(across, 400u);
     }
   }
 }
@@ -339,15 +394,15 @@ TEST(IzbZCull, EachTexelOfThePyramidIsTheFurthestOfItsSquare) {
     for (int level = 0; level < shared::pyramid_levels; ++level) {
       const int side = shared::pyramid_side(izb.grid, level), square = 4 << (2 * level);
       ASSERT_EQ(side, (izb.grid + square - 1) / square);
-      std::vector<float> expected(size_t(side) * side * izb.cascades, 0.0f);
-      const auto at = [&](int x, int y, int cascade) { return (size_t(cascade) * side + y) * side + x; };
-      for (int c = 0; c < izb.cascades; ++c)
+      std::vector<float> expected(size_t(side) * side * izb.layers, 0.0f);
+      const auto at = [&](int x, int y, int layer) { return (size_t(layer) * side + y) * side + x; };
+      for (int c = 0; c < izb.layers; ++c)
         for (int y = 0; y < izb.grid; ++y)
           for (int x = 0; x < izb.grid; ++x) {
             float& deepest = expected[at(x / square, y / square, c)];
             deepest = std::max(deepest, izb.furthest[izb.texel({x, y}, c)]);
           }
-      for (int c = 0; c < izb.cascades; ++c)
+      for (int c = 0; c < izb.layers; ++c)
         for (int y = 0; y < side; ++y)
           for (int x = 0; x < side; ++x)
             ASSERT_EQ(izb.pyramid_at(level, {x, y}, c), expected[at(x, y, c)]) << level << ": " << x << " " << y;

@@ -34,7 +34,7 @@ Scene tangled_scene(uint32_t seed, int triangles, double largest = 1.0) {
 const Camera camera = look_at({5, 6, 7}, {0, 0.5, 0}, glm::radians(50.0));
 
 std::vector<Light> lights() {
-  return {sun(130, 35), sun(20, 3), spot({1, 5, 2}, {0, 0, 0}, 55)};
+  return {sun(130, 35), sun(20, 3), spot({1, 5, 2}, {0, 0, 0}, 55), point_light({0.6, 1.9, 0.7})};
 }
 
 TEST(Izb, EveryReceiverStandsInExactlyOneListAndNothingElseInAny) {

@@ -16,6 +16,7 @@ using namespace izb;
 using namespace izb::test;
 
 const int width_px = 67, height_px = 35;
+const std::vector<Light> suns{sun(30.0, 50.0)};
 
 struct PretendedMemory {
   explicit PretendedMemory(uint64_t bytes) { setenv("IZB_MEMORY_BYTES", std::to_string(bytes).c_str(), 1); }
@@ -70,20 +71,24 @@ TEST(Memory, IsWhatWasComputedBefore) {
     for (const char* cascades : {"1", "4", "8"})
       all.push_back({{"spp", "32"}, {"insertion", insertion}, {"cascades", cascades}, {"nodes", "5"}, {"lut", "32"}});
   all.push_back({{"spp", "32"}, {"coverage", "exact"}});
-  for (const Settings& settings : all) {
+  const std::vector<Light> sun_and_lamp{sun(30.0, 50.0), point_light({0.0, 2.0, 0.0})};
+  for (size_t i = 0; i < all.size(); ++i) {
+    const Settings& settings = all[i];
     SCOPED_TRACE(testing::PrintToString(settings));
+    const std::vector<Light>& lights = i % 3 == 0 ? sun_and_lamp : suns;
     const std::unique_ptr<Technique> technique = make_technique("izb");
     set(*technique, with({{"grid", "130"}}, settings));
-    const std::map<std::string, uint64_t> needed = by_part(technique->memory_needed(width_px, height_px));
-    const gpu::Plans plans = renderer.memory_needed(*technique, width_px, height_px);
-    renderer.prepare(*technique, width_px, height_px);
+    const int faces = lights.size() > 1 ? shared::cube_faces : 1;
+    const std::map<std::string, uint64_t> needed = by_part(technique->memory_needed({width_px, height_px, faces}));
+    const gpu::Plans plans = renderer.memory_needed(*technique, width_px, height_px, lights);
+    renderer.prepare(*technique, width_px, height_px, lights);
     for (const auto& [part, bytes] : technique->memory())
       EXPECT_EQ(needed.contains(part) ? needed.at(part) : 0, bytes) << part;
     const Counts measured = renderer.memory();
     ASSERT_EQ(plans.size(), measured.size());
-    for (size_t i = 0; i < plans.size(); ++i) {
-      EXPECT_EQ(plans[i].first, measured[i].first);
-      EXPECT_EQ(gpu::bytes_of(plans[i].second), measured[i].second) << plans[i].first;
+    for (size_t group = 0; group < plans.size(); ++group) {
+      EXPECT_EQ(plans[group].first, measured[group].first);
+      EXPECT_EQ(gpu::bytes_of(plans[group].second), measured[group].second) << plans[group].first;
     }
   }
 }
@@ -93,8 +98,8 @@ TEST(Memory, OfTheRayTracerIsTheFramesAlone) {
   Renderer renderer(scene, capabilities());
   const std::unique_ptr<Technique> technique = make_technique("ray_traced");
   if (!technique->missing(capabilities()).empty()) GTEST_SKIP() << "this build has no Embree";
-  const gpu::Plans plans = renderer.memory_needed(*technique, width_px, height_px);
-  renderer.prepare(*technique, width_px, height_px);
+  const gpu::Plans plans = renderer.memory_needed(*technique, width_px, height_px, suns);
+  renderer.prepare(*technique, width_px, height_px, suns);
   EXPECT_EQ(renderer.memory()[0].second, uint64_t(4 * width_px * height_px));
   EXPECT_EQ(gpu::bytes_of(plans[0].second), renderer.memory()[0].second);
 }
@@ -104,16 +109,17 @@ TEST(Memory, ThatIsShortIsRefusedBeforeItIsTaken) {
   Renderer renderer(scene, capabilities());
   const std::unique_ptr<Technique> technique = make_technique("izb");
   uint64_t sum = 0;
-  for (const auto& [group, plan] : renderer.memory_needed(*technique, width_px, height_px)) sum += gpu::bytes_of(plan);
+  for (const auto& [group, plan] : renderer.memory_needed(*technique, width_px, height_px, suns))
+    sum += gpu::bytes_of(plan);
   {
     const PretendedMemory little(sum - 1);
-    const std::string sentence = error_of([&] { renderer.prepare(*technique, width_px, height_px); });
+    const std::string sentence = error_of([&] { renderer.prepare(*technique, width_px, height_px, suns); });
     EXPECT_NE(sentence.find("not enough memory"), std::string::npos) << sentence;
     EXPECT_LT(sentence.find("--grid"), sentence.find("--size")) << sentence;  // what helps most comes first
     for (const auto& [part, bytes] : technique->memory()) EXPECT_EQ(bytes, 0u) << part;
   }
   const PretendedMemory enough(sum);
-  renderer.prepare(*technique, width_px, height_px);
+  renderer.prepare(*technique, width_px, height_px, suns);
 }
 
 TEST(Memory, OfASceneThatIsShortIsRefusedBeforeTheUpload) {
@@ -128,18 +134,18 @@ TEST(Memory, OfExactInsertionIsRefusedOnceItsNodesAreCounted) {
   const Scene scene = tangle(1, 20);
   Renderer renderer(scene, capabilities());
   const std::unique_ptr<Technique> technique = make_technique("izb");
-  set(*technique, {{"spp", "32"}, {"insertion", "exact"}, {"grid", "256"}});
+  set(*technique, {{"spp", "32"}, {"insertion", "exact"}, {"grid", "256"}, {"grid-density", "0"}});
   gpu::StageTimers timers(true);
-  renderer.prepare(*technique, width_px, height_px);
+  renderer.prepare(*technique, width_px, height_px, suns);
   {
     const PretendedMemory little(200'000);  // a row of the pool is 131 kB
-    const std::string sentence = error_of([&] { renderer.render(above(), sun(30.0, 50.0), timers); });
+    const std::string sentence = error_of([&] { renderer.render(above(), suns, timers); });
     EXPECT_NE(sentence.find("exact insertion"), std::string::npos) << sentence;
   }
   gpu::StageTimers fresh(true);
-  renderer.render(above(), sun(30.0, 50.0), fresh);
+  renderer.render(above(), suns, fresh);
   EXPECT_GT(renderer.memory()[0].second,
-            gpu::bytes_of(renderer.memory_needed(*technique, width_px, height_px)[0].second));
+            gpu::bytes_of(renderer.memory_needed(*technique, width_px, height_px, suns)[0].second));
 }
 
 TEST(Memory, ObjectsBeyondTheDriversLimitsAreRefusedByName) {

@@ -49,7 +49,7 @@ std::vector<glm::vec3> cut_square(int cells, uint32_t seed) {
 /// Is the floor point (x, z) in the square's shadow, by more than `margin` inside or outside? 1, 0, or -1: too close.
 int square_shadow(const glm::dvec3& p, const Light& light, double margin) {
   glm::dvec3 on;
-  if (light.type == LightType::spot) {
+  if (light.type != LightType::directional) {
     on = glm::mix(p, light.position_ws, (2.0 - p.y) / (light.position_ws.y - p.y));
   } else {
     on = p + light.direction_ws * ((2.0 - p.y) / light.direction_ws.y);
@@ -59,7 +59,7 @@ int square_shadow(const glm::dvec3& p, const Light& light, double margin) {
 }
 
 TEST(ClosedForm, ASquareOverAFloorWholeOrInManyTrianglesCastsTheSameKnownShadow) {
-  for (const Light& light : {sun(135, 50), spot({0.4, 6.0, -0.3}, {0, 0, 0}, 50)})
+  for (const Light& light : {sun(135, 50), spot({0.4, 6.0, -0.3}, {0, 0, 0}, 50), point_light({0.4, 6.0, -0.3})})
     for (const int cells : {1, 224}) {  // 2 and 100,352 triangles
       Scene scene = empty_scene();
       add_soup(scene, floor_of(12.0f));
@@ -100,12 +100,12 @@ TEST(ClosedForm, CuttingTheSquareChangesNoBitButWithinTheBandOfItsOutline) {
 }
 
 TEST(ClosedForm, SamplesOnSharedEdgesAndVerticesOfACutSquareAreAllInItsShadow) {
-  for (const Light& light : {sun(135, 50), spot({0.4, 6.0, -0.3}, {0, 0, 0}, 50)}) {
+  for (const Light& light : {sun(135, 50), spot({0.4, 6.0, -0.3}, {0, 0, 0}, 50), point_light({0.4, 6.0, -0.3})}) {
     Scene scene = empty_scene();
     add_soup(scene, floor_of(12.0f));
     const Frame bare = render_frame(scene, above, light, width_px, height_px);
     const auto up_to_square = [&](const glm::dvec3& p) {
-      if (light.type == LightType::spot)
+      if (light.type != LightType::directional)
         return glm::mix(p, light.position_ws, (2.0 - p.y) / (light.position_ws.y - p.y));
       return p + light.direction_ws * ((2.0 - p.y) / light.direction_ws.y);
     };

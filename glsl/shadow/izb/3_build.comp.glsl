@@ -2,17 +2,17 @@
 // 5.3 Creating the irregular z-buffer: each receiver goes into the list of its light-space texel. Nodes stand in a
 // preallocated screen-space grid, so that a node's address is its pixel and slot and a node needs nothing but a next pointer
 // (6.2); at one sample a pixel the receiver's eye distance stands beside it, since a walk that reads one reads the other.
-// Defines: ZCULL; SPP32, and then how it is inserted (6.1): COVER (texels that answer for all of it), BY_VIEW,
+// Defines: ZCULL; CUBE: a grid for each of six faces; SPP32, and then how it is inserted (6.1): COVER (texels that answer for all of it), BY_VIEW,
 // BY_SAMPLES, or POOL (every texel that it touches; COUNT_NODES only counts them); STRIDE: in another order, for tests.
 #include "shared/bindings.h"
-#include "shared/insertion.h"
+#include "shared/faces.h"
 #include "shadow/izb/nodes.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
 layout(std140, binding = BIND_CAMERA) uniform CameraBlock { CameraFrame camera; };
 layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
-layout(std140, binding = BIND_WINDOWS) uniform WindowBlock { LightWindow windows[max_cascades]; };
+layout(std140, binding = BIND_WINDOWS) uniform WindowBlock { LightWindow windows[max_layers]; };
 layout(std140, binding = BIND_CASCADE_ENDS) uniform CascadeBlock { CascadeRange range; };
 layout(binding = UNIT_EYE_DISTANCE) uniform sampler2D eye_distance_texture;
 layout(binding = UNIT_NORMAL) uniform sampler2D normal_texture;
@@ -24,6 +24,9 @@ layout(std140, binding = BIND_SAMPLES) uniform SampleBlock { SampleFrame samples
 layout(binding = UNIT_MICRO_QUAD) uniform sampler2D micro_quad_texture;
 #ifdef POOL
 layout(location = 0) uniform ivec2 part;
+#ifdef CUBE
+layout(location = 2) uniform int only_face;  // so that the largest grids' rows stay below a software renderer's rounds
+#endif
 #else
 layout(location = 0) uniform int most_nodes;
 #endif
@@ -47,12 +50,18 @@ uint push(ivec3 texel, uint node, float depth) {
 }
 
 #ifdef SPP32
+// A pixel's nodes go to one slot after the other, whatever grid they are in.
+struct Slots {
+  ivec2 px;
+  int used;
+};
+
 #ifdef POOL
-// The micro-quad's texels from part.x on, but for those from part.y on.
-void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
-  QuadOnGrid on_grid = project_quad(light, window, quad);
+// Texels from part.x on, but for those from part.y on.
+void insert_part(int layer, LightFrame face, LightWindow window, MicroQuad quad, QuadPart part_of_quad, Slots slots) {
+  QuadOnGrid on_grid = part_on_grid(face, window, quad, part_of_quad);
   const int all = 0x7fff;
-  Cover cover = make_cover(on_grid, 0.5, window.guard.x + 0.001, int(light.grid.x) - 1, all);
+  Cover cover = make_cover(on_grid, 0.5, window.guard.x + 0.001, last_texel(window), all);
   int count = 0;
   for (int i = 0; i < cover.rows.count; ++i)
     count += cover_row(cover, run_texel(cover.rows, i, cover.last), all).count;
@@ -71,8 +80,8 @@ void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
     Run columns = cover_row(cover, row, all);
     k = max(k, part.x - first);
     if (k < columns.count) {
-      uint next = push(ivec3(cover_texel(cover, row, columns, k), cascade), node, on_grid.deepest);
-      imageStore(nodes, NODE_TEXEL(node), node_words(next, px, 0.0));
+      uint next = push(ivec3(cover_texel(cover, row, columns, k), layer), node, on_grid.deepest);
+      imageStore(nodes, NODE_TEXEL(node), node_words(next, slots.px, 0.0));
       ++node;
       ++k;
     }
@@ -85,23 +94,39 @@ void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
 #endif
 }
 #else
-void add_node(ivec2 px, int cascade, ivec2 texel, float depth, inout int slot) {
-  uint next = push(ivec3(texel, cascade), node_from_pixel(px, slot), depth);
-  imageStore(nodes, ivec3(px, slot), uvec4(next));
-  ++slot;
+// Where points of the micro-quad go.
+struct Place {
+  LightFrame face;
+  LightWindow window;
+  int layer;
+  float depth;  // of the deepest point
+  bool whole;   // all of the micro-quad goes there
+};
+
+void add_node(Place at, ivec2 texel, inout Slots slots) {
+  uint next = push(ivec3(texel, at.layer), node_from_pixel(slots.px, slots.used), at.depth);
+  imageStore(nodes, ivec3(slots.px, slots.used), uvec4(next));
+  ++slots.used;
 }
 
-ivec2 texel_of(LightWindow window, MicroQuad quad, vec2 offset_px) {
-  return grid_texel(light, grid_position(window, micro_quad_uvd(light, quad, offset_px)));
+ivec2 texel_of(Place at, MicroQuad quad, vec2 offset_px) {
+  return grid_texel(at.window, grid_position(at.window, micro_quad_uvd(at.face, quad, offset_px)));
+}
+
+// Is the point seen through that face?
+bool is_there(Place at, MicroQuad quad, vec2 offset_px) {
+  return at.whole || face_of(light_position(at.face, micro_quad_point(quad, offset_px))) == 0;
 }
 
 #ifdef BY_SAMPLES
-void insert_samples(ivec2 px, int cascade, LightWindow window, MicroQuad quad, float depth, inout int slot) {
-  for (int i = 0; i < 32 && slot < most_nodes; ++i) {
-    ivec2 texel = texel_of(window, quad, samples.offset_px[i].xy);
-    bool known = false;
-    for (int k = 0; k < i; ++k) known = known || texel == texel_of(window, quad, samples.offset_px[k].xy);
-    if (!known) add_node(px, cascade, texel, depth, slot);
+void insert_samples(Place at, MicroQuad quad, inout Slots slots) {
+  for (int i = 0; i < 32 && slots.used < most_nodes; ++i) {
+    vec2 offset = samples.offset_px[i].xy;
+    ivec2 texel = texel_of(at, quad, offset);
+    bool known = !is_there(at, quad, offset);
+    for (int k = 0; k < i; ++k)
+      known = known || (texel == texel_of(at, quad, samples.offset_px[k].xy) && is_there(at, quad, samples.offset_px[k].xy));
+    if (!known) add_node(at, texel, slots);
   }
 }
 #else
@@ -112,12 +137,14 @@ vec2 view_axis(MicroQuad quad) {
 }
 
 // The paper's: a row of nodes along the view ray.
-void insert_row(ivec2 px, int cascade, LightWindow window, MicroQuad quad, float depth, int count, inout int slot) {
+void insert_row(Place at, MicroQuad quad, int count, inout Slots slots) {
   vec2 axis = view_axis(quad);
   ivec2 last = ivec2(-1);
-  for (int i = 0; i < count; ++i) {
-    ivec2 texel = texel_of(window, quad, axis * ((2.0 * float(i) + 1.0) / float(count) - 1.0));
-    if (texel != last) add_node(px, cascade, texel, depth, slot);
+  for (int i = 0; i < count && slots.used < most_nodes; ++i) {
+    vec2 offset = axis * ((2.0 * float(i) + 1.0) / float(count) - 1.0);
+    if (!is_there(at, quad, offset)) continue;
+    ivec2 texel = texel_of(at, quad, offset);
+    if (texel != last) add_node(at, texel, slots);
     last = texel;
   }
 }
@@ -133,37 +160,57 @@ int nodes_by_view(ivec2 px, MicroQuad quad) {
 #endif
 
 #ifdef COVER
-void insert_cover(ivec2 px, int cascade, LightWindow window, MicroQuad quad, QuadOnGrid on_grid, inout int slot) {
-  Cover cover = make_cover(on_grid, dilation, window.guard.x + 0.001, int(light.grid.x) - 1, most_nodes);
+void insert_cover(Place at, MicroQuad quad, QuadOnGrid on_grid, inout Slots slots) {
+  int room = most_nodes - slots.used;
+  Cover cover = make_cover(on_grid, dilation, at.window.guard.x + 0.001, last_texel(at.window), room);
   // Too long for it: the paper's row samples better, where it runs along the long axis.
   vec2 axis = view_axis(quad);
-  vec2 ends = abs(grid_position(window, micro_quad_uvd(light, quad, axis)).xy -
-                  grid_position(window, micro_quad_uvd(light, quad, -axis)).xy);
-  if (cover.rows.count < cover.rows.needed && max(ends.x, ends.y) > 0.5 * cover.long_side) {
-    insert_row(px, cascade, window, quad, on_grid.deepest, most_nodes, slot);
+  vec2 ends = abs(grid_position(at.window, micro_quad_uvd(at.face, quad, axis)).xy -
+                  grid_position(at.window, micro_quad_uvd(at.face, quad, -axis)).xy);
+  if (at.whole && cover.rows.count < cover.rows.needed && max(ends.x, ends.y) > 0.5 * cover.long_side) {
+    insert_row(at, quad, room, slots);
     return;
   }
   for (int i = 0; i < cover.rows.count; ++i) {
     int row = run_texel(cover.rows, i, cover.last);
-    Run columns = cover_row(cover, row, most_nodes - slot - (cover.rows.count - 1 - i));  // one for each row to come
-    for (int k = 0; k < columns.count; ++k)
-      add_node(px, cascade, cover_texel(cover, row, columns, k), on_grid.deepest, slot);
+    Run columns = cover_row(cover, row, most_nodes - slots.used - (cover.rows.count - 1 - i));  // one for each row to come
+    for (int k = 0; k < columns.count; ++k) add_node(at, cover_texel(cover, row, columns, k), slots);
   }
 }
 #endif
 
-void insert_quad(ivec2 px, int cascade, LightWindow window, MicroQuad quad) {
-  QuadOnGrid on_grid = project_quad(light, window, quad);
-  int slot = 0;
+void insert_part(int layer, LightFrame face, LightWindow window, MicroQuad quad, QuadPart part, inout Slots slots) {
+  QuadOnGrid on_grid = part_on_grid(face, window, quad, part);
+  Place at = Place(face, window, layer, on_grid.deepest, part.whole);
 #if defined(BY_SAMPLES)
-  insert_samples(px, cascade, window, quad, on_grid.deepest, slot);
+  insert_samples(at, quad, slots);
 #elif defined(BY_VIEW)
-  insert_row(px, cascade, window, quad, on_grid.deepest, nodes_by_view(px, quad), slot);
+  insert_row(at, quad, nodes_by_view(slots.px, quad), slots);
 #else
-  insert_cover(px, cascade, window, quad, on_grid, slot);
+  if (slots.used < most_nodes) insert_cover(at, quad, on_grid, slots);
 #endif
 }
 #endif
+
+void insert_quad(ivec2 px, int cascade, MicroQuad quad) {
+  Slots slots = Slots(px, 0);
+#if defined(CUBE) && defined(POOL)
+  QuadPart part_of_quad = quad_part(light, quad, only_face);
+  int layer = only_face * int(light.grid.y) + cascade;
+  if (part_of_quad.any) insert_part(layer, light_face(light, only_face), windows[layer], quad, part_of_quad, slots);
+#elif defined(CUBE)
+  int f = face_of(light_position(light, quad.center));
+  for (int i = 0; i < cube_faces; ++i) {
+    QuadPart part_of_quad = quad_part(light, quad, f);
+    int layer = f * int(light.grid.y) + cascade;
+    if (part_of_quad.any) insert_part(layer, light_face(light, f), windows[layer], quad, part_of_quad, slots);
+    if (part_of_quad.whole) break;
+    f = f == cube_faces - 1 ? 0 : f + 1;
+  }
+#else
+  insert_part(cascade, light, windows[cascade], quad, whole_quad(light, quad), slots);
+#endif
+}
 #endif
 
 void main() {
@@ -179,12 +226,18 @@ void main() {
   if (!(t > 0.0) || receiver_class(light, p, normal) != class_receiver) return;
 
   int cascade = cascade_of(range, int(light.grid.y), t);
-  LightWindow window = windows[cascade];
 #ifdef SPP32
-  insert_quad(px, cascade, window, make_micro_quad(camera, px, texelFetch(micro_quad_texture, px, 0)));
+  insert_quad(px, cascade, make_micro_quad(camera, px, texelFetch(micro_quad_texture, px, 0)));
 #else
-  vec3 grid = grid_position(window, light_uvd(light, light_position(light, p)));
-  uint next = push(ivec3(grid_texel(light, grid), cascade), node_from_pixel(px, 0), grid.z + window.depth.z);
+  int f = 0;
+#ifdef CUBE
+  f = face_of(light_position(light, p));
+#endif
+  LightFrame face = light_face(light, f);
+  int layer = f * int(light.grid.y) + cascade;
+  LightWindow window = windows[layer];
+  vec3 grid = grid_position(window, light_uvd(face, light_position(face, p)));
+  uint next = push(ivec3(grid_texel(window, grid), layer), node_from_pixel(px, 0), grid.z + window.depth.z);
   imageStore(nodes, px, node_words(next, px, t));
 #endif
 }

@@ -14,7 +14,7 @@ layout(location = 0) uniform int level;
 
 void main() {
   int side = int(light.grid.x);
-  int cascade = int(gl_WorkGroupID.z);
+  int layer = int(gl_WorkGroupID.z);
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(at, ivec2(pyramid_side(side, level))))) return;
   ivec2 last = ivec2(level == 0 ? side : pyramid_side(side, level - 1)) - 1;
@@ -23,10 +23,10 @@ void main() {
     for (int x = 0; x < 4; ++x) {
       ivec2 below = min(at * 4 + ivec2(x, y), last);
 #ifdef FIRST_LEVEL
-      deepest = max(deepest, imageLoad(furthest, ivec3(below, cascade)).x);
+      deepest = max(deepest, imageLoad(furthest, ivec3(below, layer)).x);
 #else
-      deepest = max(deepest, imageLoad(pyramid, ivec3(pyramid_origin(side, level - 1) + below, cascade)).x);
+      deepest = max(deepest, imageLoad(pyramid, ivec3(pyramid_origin(side, level - 1) + below, layer)).x);
 #endif
     }
-  imageStore(pyramid, ivec3(pyramid_origin(side, level) + at, cascade), uvec4(deepest));
+  imageStore(pyramid, ivec3(pyramid_origin(side, level) + at, layer), uvec4(deepest));
 }

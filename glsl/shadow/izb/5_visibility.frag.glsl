@@ -1,6 +1,6 @@
 #version 450 core
 // 5.5 Each fragment walks its texel's list, tests each listed pixel against the triangle, and adds shadow to its mask.
-// Defines, beside those of receivers.glsl and coverage.glsl: CASCADES: several layers; PIPELINE: fetch one node ahead (6.8);
+// Defines, beside those of receivers.glsl and coverage.glsl: LAYERS: several layers; PIPELINE: fetch one node ahead (6.8);
 // COUNT: count fragments and tests; IN_DOUBLE: decide unsure pairs here (when their list overflowed); HW: hardware chose the
 // texels.
 #include "shared/bindings.h"
@@ -110,7 +110,7 @@ void main() {
 #endif
   CameraFrame eye = camera;  // read once, not in every round of the loop
   Triangle triangle = make_triangle(eye);
-#ifdef CASCADES
+#ifdef LAYERS
   ivec3 head_texel = ivec3(gl_FragCoord.xy, gl_Layer);
 #else
   ivec3 head_texel = ivec3(gl_FragCoord.xy, 0);

@@ -1,16 +1,17 @@
 #version 450 core
 // 5.5 Conservative rasterisation by dilation: the triangle's footprint on the light-space grid, with its vertices for the
-// test in the fragment shader. CASCADES: into the layers [first, end) of `cascades`, at most CASCADES of them (6.4).
+// test in the fragment shader. LAYERS: into those of [first, end) in `layers`, at most LAYERS of them (6.4).
 // REST: only what 5_visibility_hw.geom.glsl leaves.
 layout(triangles) in;
 #include "shadow/izb/vertices.glsl"
 #include "shared/coverage.h"
 #include "shared/footprint.h"
+#include "shared/occlusion.h"
 #include "shared/pyramid.h"
 
-#ifdef CASCADES
-layout(triangle_strip, max_vertices = 4 * CASCADES) out;
-layout(location = 2) uniform ivec2 cascades;
+#ifdef LAYERS
+layout(triangle_strip, max_vertices = 4 * LAYERS) out;
+layout(location = 2) uniform ivec2 layers;
 #else
 layout(triangle_strip, max_vertices = 4) out;
 #endif
@@ -20,14 +21,14 @@ layout(location = 3) uniform float hardware_square;  // half the side, texels
 #endif
 
 layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
-layout(std140, binding = BIND_WINDOWS) uniform WindowBlock { LightWindow windows[max_cascades]; };
+layout(std140, binding = BIND_WINDOWS) uniform WindowBlock { LightWindow windows[max_layers]; };
 
 layout(location = 3) flat out vec4 g_box;
 #ifdef PYRAMID
 layout(binding = UNIT_PYRAMID) uniform usampler2DArray pyramid;
 
 // Is no receiver of the texels that the footprint can touch behind it?
-bool behind_all(Footprint f, int cascade) {
+bool behind_all(Footprint f, int layer) {
   vec2 size = f.box.zw - f.box.xy;
   float largest = max(size.x, size.y);
   int k = 0;
@@ -37,53 +38,60 @@ bool behind_all(Footprint f, int cascade) {
   ivec2 origin = pyramid_origin(int(light.grid.x), k);
   ivec2 low = origin + clamp(ivec2(floor(f.box.xy)) >> log_texels, ivec2(0), last);
   ivec2 high = origin + clamp(ivec2(floor(f.box.zw)) >> log_texels, ivec2(0), last);
-  uint furthest = max(max(texelFetch(pyramid, ivec3(low, cascade), 0).x, texelFetch(pyramid, ivec3(high, cascade), 0).x),
-                      max(texelFetch(pyramid, ivec3(low.x, high.y, cascade), 0).x,
-                          texelFetch(pyramid, ivec3(high.x, low.y, cascade), 0).x));
+  uint furthest = max(max(texelFetch(pyramid, ivec3(low, layer), 0).x, texelFetch(pyramid, ivec3(high, layer), 0).x),
+                      max(texelFetch(pyramid, ivec3(low.x, high.y, layer), 0).x,
+                          texelFetch(pyramid, ivec3(high.x, low.y, layer), 0).x));
   float nearest = min(min(f.p0.z, f.p1.z), f.count == 4 ? min(f.p2.z, f.p3.z) : f.p2.z);
   return max(nearest, 0.0) >= uintBitsToFloat(furthest);
 }
 #endif
 
-void emit(vec3 corner, Footprint f, vec3 a, vec3 b, vec3 c, int cascade) {
+void emit(vec3 corner, Footprint f, vec3 a, vec3 b, vec3 c, int layer) {
   gl_Position = vec4(corner.xy * (2.0 / float(light.grid.x)) - 1.0, corner.z, 1.0);
   g_a = a;
   g_b = b;
   g_c = c;
   g_box = f.box;
   g_id = uvec2(v_instance[0] + 1u, uint(gl_PrimitiveIDIn));
-#ifdef CASCADES
-  gl_Layer = cascade;
+#ifdef LAYERS
+  gl_Layer = layer;
 #endif
   EmitVertex();
 }
 
-void spawn(vec3 a, vec3 b, vec3 c, int cascade) {
-  Footprint f = make_footprint(light, windows[cascade], a, b, c, dilation);
+void spawn(vec3 a, vec3 b, vec3 c, int layer) {
+#ifdef CUBE
+  LightFrame face = light_face(light, layer / int(light.grid.y));
+#else
+  LightFrame face = light;
+#endif
+  Footprint f = make_footprint(face, windows[layer], a, b, c, dilation);
   if (f.count == 0) return;
 #ifdef REST
   if (f.square <= hardware_square) return;
 #endif
 #ifdef PYRAMID
-  if (behind_all(f, cascade)) return;
+  if (behind_all(f, layer)) return;
 #endif
 #ifdef COUNT
   atomicAdd(counters.triangles, 1u);
 #endif
-  emit(f.p0, f, a, b, c, cascade);
-  emit(f.p1, f, a, b, c, cascade);
-  emit(f.p2, f, a, b, c, cascade);
-  if (f.count == 4) emit(f.p3, f, a, b, c, cascade);
+  emit(f.p0, f, a, b, c, layer);
+  emit(f.p1, f, a, b, c, layer);
+  emit(f.p2, f, a, b, c, layer);
+  if (f.count == 4) emit(f.p3, f, a, b, c, layer);
   EndPrimitive();
 }
 
 void main() {
   vec3 a = v_position_vs[0], b = v_position_vs[1], c = v_position_vs[2];
+  if (holds_light(light, a, b, c)) return;
 #ifdef SPP32
   order_vertices(a, b, c);  // once a triangle
 #endif
-#ifdef CASCADES
-  for (int cascade = cascades.x; cascade < cascades.y; ++cascade) spawn(a, b, c, cascade);
+#ifdef LAYERS
+  for (int layer = layers.x; layer < layers.y; ++layer)
+    if (windows[layer].guard.y != 0.0) spawn(a, b, c, layer);  // a face that no receiver is seen through costs nothing
 #else
   spawn(a, b, c, 0);
 #endif

@@ -10,11 +10,11 @@ layout(std430, binding = BIND_INSTANCES) readonly buffer InstanceBlock { Instanc
 #include "shared/footprint.h"
 
 layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
-layout(std140, binding = BIND_WINDOWS) uniform WindowBlock { LightWindow windows[max_cascades]; };
-#ifdef CASCADES
-layout(location = 2) uniform ivec2 cascades;
+layout(std140, binding = BIND_WINDOWS) uniform WindowBlock { LightWindow windows[max_layers]; };
+#ifdef LAYERS
+layout(location = 2) uniform ivec2 layers;
 #else
-const ivec2 cascades = ivec2(0, 1);
+const ivec2 layers = ivec2(0, 1);
 #endif
 layout(location = 4) uniform vec2 shift;  // texels
 
@@ -31,7 +31,7 @@ void main() {
   v_position_vs = view_from_object(instances[instance_index], position);
   v_instance = instance_index;
 #ifdef HW
-  vec3 corner = hardware_vertex(light, windows[cascades.x], v_position_vs);
+  vec3 corner = hardware_vertex(light_face(light, layers.x / int(light.grid.y)), windows[layers.x], v_position_vs);
   gl_Position = vec4((corner.xy + shift) * (2.0 / float(light.grid.x)) - 1.0, corner.z, 1.0);
 #endif
 }

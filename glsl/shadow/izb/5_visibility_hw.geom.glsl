@@ -1,13 +1,13 @@
 #version 450 core
 #extension GL_NV_geometry_shader_passthrough : require
 // 5.5 Hardware conservative rasterisation (7): positions pass through, the vertices for the test go along once a triangle.
-// CASCADES: into the first layer of `cascades`, since such a shader makes one triangle of one.
+// LAYERS: into the first of `layers`, since such a shader makes one triangle of one.
 layout(triangles) in;
 layout(passthrough) in gl_PerVertex { vec4 gl_Position; } gl_in[];
 #include "shadow/izb/vertices.glsl"
 #include "shared/coverage.h"
-#ifdef CASCADES
-layout(location = 2) uniform ivec2 cascades;
+#ifdef LAYERS
+layout(location = 2) uniform ivec2 layers;
 #endif
 
 layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
@@ -15,9 +15,14 @@ layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
 void main() {
   vec3 a = v_position_vs[0], b = v_position_vs[1], c = v_position_vs[2];
   // What casts nothing, and what has a vertex at a place that is not its own: no id, and the fragments end.
-  bool left_out = a == b || b == c || c == a;
-  if (is_positional(light))
-    left_out = left_out || min(light_position(light, a).z, min(light_position(light, b).z, light_position(light, c).z)) <= 0.0;
+  bool left_out = a == b || b == c || c == a || holds_light(light, a, b, c);
+  if (is_positional(light)) {
+    LightFrame face = light;
+#ifdef CUBE
+    face = light_face(light, layers.x / int(light.grid.y));
+#endif
+    left_out = left_out || min(light_position(face, a).z, min(light_position(face, b).z, light_position(face, c).z)) <= 0.0;
+  }
 #ifdef SPP32
   order_vertices(a, b, c);
 #endif
@@ -25,8 +30,8 @@ void main() {
   g_b = b;
   g_c = c;
   g_id = left_out ? uvec2(0u) : uvec2(v_instance[0] + 1u, uint(gl_PrimitiveIDIn));
-#ifdef CASCADES
-  gl_Layer = cascades.x;
+#ifdef LAYERS
+  gl_Layer = layers.x;
 #endif
 #ifdef COUNT
   if (!left_out) atomicAdd(counters.triangles, 1u);

@@ -21,19 +21,19 @@ struct IzbLists {
   }
 };
 
-/// Grids have the bottom row first, one cascade after another; texel() indexes them.
+/// Grids have the bottom row first, one layer after another (of each face its cascades); texel() indexes them.
 struct IzbInternals {
-  int grid = 0, cascades = 0;
+  int grid = 0, layers = 0;
   IzbLists lists;
   std::vector<float> furthest;  ///< depth of the furthest node, 0: none; empty without z-cull
   std::vector<uint16_t> zcull;  ///< the depth buffer, in steps of 1 / 65535; empty without z-cull
   std::vector<float> pyramid;   ///< read by pyramid_at; empty without a pyramid
-  glm::ivec2 pyramid_size{0};   ///< of one cascade
+  glm::ivec2 pyramid_size{0};   ///< of one layer
 
-  size_t texel(const glm::ivec2& at, int cascade) const { return (size_t(cascade) * grid + at.y) * grid + at.x; }
-  float pyramid_at(int level, const glm::ivec2& at, int cascade) const {
+  size_t texel(const glm::ivec2& at, int layer) const { return (size_t(layer) * grid + at.y) * grid + at.x; }
+  float pyramid_at(int level, const glm::ivec2& at, int layer) const {
     const glm::ivec2 p = shared::pyramid_origin(grid, level) + at;
-    return pyramid[(size_t(cascade) * pyramid_size.y + p.y) * pyramid_size.x + p.x];
+    return pyramid[(size_t(layer) * pyramid_size.y + p.y) * pyramid_size.x + p.x];
   }
 };
 

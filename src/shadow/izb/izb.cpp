@@ -10,6 +10,15 @@
 
 namespace izb {
 
+namespace {
+
+LightKind light_kind(const shared::LightFrame& light) {
+  if (!shared::is_positional(light)) return LightKind::directional;
+  return light.grid.z > 1 ? LightKind::cube : LightKind::positional;
+}
+
+}  // namespace
+
 std::string Izb::missing(const gpu::Capabilities& capabilities) const {
   if (capabilities.subpixel_bits < 8)
     return fmt::format("the rasteriser has {} sub-pixel bits; the guard of conservative rasterisation needs 8",
@@ -22,14 +31,15 @@ std::string Izb::missing(const gpu::Capabilities& capabilities) const {
              : "";
 }
 
-void Izb::resize(int width_px, int height_px) {
+void Izb::resize(const FrameShape& shape) {
   built_ = settings_;
-  built_.pair_capacity = settings_.pairs(width_px, height_px);
+  built_.pair_capacity = settings_.pairs(shape.width_px, shape.height_px);
   const IzbSettings& s = built_;
-  width_px_ = width_px, height_px_ = height_px;
+  const int width_px = shape.width_px, height_px = shape.height_px, layers = s.cascades * shape.faces;
+  shape_ = shape;
   programs_ = IzbPrograms(s);
   if (s.hardware()) hardware_ = HardwareRaster(gpu::query_capabilities(), s.dilation());
-  heads_ = gpu::Texture::array("izb heads", GL_R32UI, s.grid, s.grid, s.cascades);
+  heads_ = gpu::Texture::array("izb heads", GL_R32UI, s.grid, s.grid, layers);
   if (s.pool())
     nodes_ = gpu::Texture("izb nodes", GL_RG32UI, shared::pool_width, 1);
   else if (s.many_samples())
@@ -41,18 +51,18 @@ void Izb::resize(int width_px, int height_px) {
   pyramid_ = gpu::Texture();
   zcull_framebuffers_.clear();
   if (s.zcull) {
-    furthest_ = gpu::Texture::array("izb furthest", GL_R32UI, s.grid, s.grid, s.cascades);
-    depth_ = gpu::Texture::array("izb z-cull", GL_DEPTH_COMPONENT16, s.grid, s.grid, s.cascades);
-    for (int c = 0; c < s.cascades; ++c)
-      zcull_framebuffers_.push_back(gpu::Framebuffer::depth_layer("izb z-cull", depth_, c));
+    furthest_ = gpu::Texture::array("izb furthest", GL_R32UI, s.grid, s.grid, layers);
+    depth_ = gpu::Texture::array("izb z-cull", GL_DEPTH_COMPONENT16, s.grid, s.grid, layers);
+    for (int layer = 0; layer < layers; ++layer)
+      zcull_framebuffers_.push_back(gpu::Framebuffer::depth_layer("izb z-cull", depth_, layer));
   }
   if (s.pyramid()) {
     const int side = shared::pyramid_side(s.grid, 0);
     pyramid_ = gpu::Texture::array("izb z-cull pyramid", GL_R32UI, side + shared::pyramid_side(s.grid, 1),
-                                   shared::pyramid_height(s.grid), s.cascades);
+                                   shared::pyramid_height(s.grid), layers);
   }
   light_framebuffer_ = s.zcull ? gpu::Framebuffer("izb light space", {}, &depth_)
-                               : gpu::Framebuffer("izb light space", s.grid, s.grid, s.cascades);
+                               : gpu::Framebuffer("izb light space", s.grid, s.grid, layers);
   no_attributes_ = gpu::VertexArray("none");
   counters_ = gpu::Buffer("izb counters", sizeof(shared::Counters));
   pairs_ = gpu::Buffer("izb unsure pairs", sizeof(shared::UnsurePair) * static_cast<size_t>(s.pair_capacity));
@@ -64,15 +74,15 @@ void Izb::resize(int width_px, int height_px) {
 }
 
 void Izb::render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) {
-  programs_.prepare(shared::is_positional(in.light) ? LightKind::positional : LightKind::directional);
+  programs_.prepare(light_kind(in.light));
   {
     const gpu::StageTimers::Scope scope(timers, name(Stage::build));
     build(in);
   }
   if (built_.zcull) {
     const gpu::StageTimers::Scope scope(timers, name(Stage::zcull));
-    zcull();
-    if (built_.pyramid()) pyramid();
+    zcull(layers_of(in));
+    if (built_.pyramid()) pyramid(layers_of(in));
   }
   const gpu::StageTimers::Scope scope(timers, name(Stage::visibility));
   visibility(in, out, {IzbProgram::visibility, built_.zcull});
@@ -94,9 +104,21 @@ void Izb::build(const FrameInputs& in) {
   }
   for (int first = 0; first == 0 || first < texels_a_quad; first += shared::texels_a_dispatch) {
     if (built_.pool()) glUniform2i(0, first, first + shared::texels_a_dispatch);
-    programs_[IzbProgram::build].dispatch(in.width_px, in.height_px, 16, 16);
+    insert(in, programs_[IzbProgram::build]);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
                     GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  }
+}
+
+// Every pixel once, or with exact insertion around a light once for each face.
+void Izb::insert(const FrameInputs& in, const gpu::Program& program) {
+  const int faces = static_cast<int>(in.light.grid.z);
+  const bool face_by_face = built_.pool() && faces > 1;
+  program.use();
+  for (int face = 0; face < (face_by_face ? faces : 1); ++face) {
+    if (face_by_face) glUniform1i(2, face);
+    program.dispatch(in.width_px, in.height_px, 16, 16);
+    if (face_by_face) glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
   }
 }
 
@@ -105,7 +127,7 @@ void Izb::build(const FrameInputs& in) {
 int Izb::count_pool(const FrameInputs& in) {
   pool_counter_.fill(0);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_POOL, pool_counter_.name());
-  programs_[IzbProgram::count_nodes].dispatch(in.width_px, in.height_px, 16, 16);
+  insert(in, programs_[IzbProgram::count_nodes]);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   const shared::PoolCounters counted = pool_counter_.read<shared::PoolCounters>(1)[0];
   // Some more than counted: compilers may round two programs' sums in two ways.
@@ -121,7 +143,7 @@ int Izb::count_pool(const FrameInputs& in) {
   return static_cast<int>(with_spare(counted.largest_quad));
 }
 
-void Izb::zcull() {
+void Izb::zcull(int layers) {
   glViewport(0, 0, built_.grid, built_.grid);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
@@ -129,22 +151,22 @@ void Izb::zcull() {
   glBindTextureUnit(UNIT_FURTHEST, furthest_.name());
   glBindVertexArray(no_attributes_.name());
   programs_[IzbProgram::zcull].use();
-  for (int cascade = 0; cascade < built_.cascades; ++cascade) {
-    glBindFramebuffer(GL_FRAMEBUFFER, zcull_framebuffers_[cascade].name());
-    glUniform1i(0, cascade);
+  for (int layer = 0; layer < layers; ++layer) {
+    glBindFramebuffer(GL_FRAMEBUFFER, zcull_framebuffers_[static_cast<size_t>(layer)].name());
+    glUniform1i(0, layer);
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
   glDisable(GL_DEPTH_TEST);
 }
 
-void Izb::pyramid() {
+void Izb::pyramid(int layers) {
   glBindImageTexture(IMAGE_PYRAMID, pyramid_.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
   for (int level = 0; level < shared::pyramid_levels; ++level) {
     const gpu::Program& p = programs_[level == 0 ? IzbProgram::pyramid_first : IzbProgram::pyramid];
     p.use();
     glUniform1i(0, level);
     const int side = shared::pyramid_side(built_.grid, level);
-    p.dispatch(side, side, 16, 16, built_.cascades);
+    p.dispatch(side, side, 16, 16, layers);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
   }
 }
@@ -166,15 +188,15 @@ void Izb::draw_by_hardware(const FrameInputs& in, IzbProgram program) {
   programs_[program].use();
   hardware_.begin();
   for (const glm::vec2& shift : hardware_.shifts())
-    for (int cascade = 0; cascade < built_.cascades; ++cascade) {
+    for (int layer = 0; layer < layers_of(in); ++layer) {
       glUniform2f(4, shift.x, shift.y);
-      if (built_.cascades > 1) glUniform2i(2, cascade, cascade + 1);
+      if (layers_of(in) > 1) glUniform2i(2, layer, layer + 1);
       in.draw_casters();
     }
   hardware_.end();
 }
 
-// Every caster once for all cascades, or once for each. Of what hardware rasterises only the rest, that it does not
+// Every caster once for as many layers as one pass reaches. Of what hardware rasterises only the rest, that it does not
 // surely cover.
 void Izb::draw(const FrameInputs& in, const Pass& pass) {
   if (pass.culled) {
@@ -189,9 +211,9 @@ void Izb::draw(const FrameInputs& in, const Pass& pass) {
   programs_[pass.program].use();
   glUniform1f(1, static_cast<float>(built_.dilation()));
   if (built_.hardware()) glUniform1f(3, hardware_.square());
-  const int layers = built_.layers_a_pass();
-  for (int first = 0; first < built_.cascades; first += layers) {
-    if (built_.cascades > 1) glUniform2i(2, first, first + layers);
+  const int layers = layers_of(in), pass_layers = built_.layers_a_pass(static_cast<int>(in.light.grid.z));
+  for (int first = 0; first < layers; first += pass_layers) {
+    if (layers > 1) glUniform2i(2, first, std::min(first + pass_layers, layers));
     in.draw_casters();
   }
   glDisable(GL_DEPTH_TEST);

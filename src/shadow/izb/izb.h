@@ -26,15 +26,16 @@ class Izb final : public Technique {
 
   SamplePattern samples() const override { return settings_.sampling.samples(); }
   GridRequest grid() const override {
-    return {settings_.grid, settings_.nl_cull, settings_.cascades, settings_.table() ? settings_.table_side() : 0};
+    return {settings_.grid,   settings_.nl_cull,     settings_.cascades, settings_.table() ? settings_.table_side() : 0,
+            settings_.pool(), settings_.grid_density};
   }
 
-  void resize(int width_px, int height_px) override;
+  void resize(const FrameShape& shape) override;
   void render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) override;
   std::string fault() const override;
   Counts count(const FrameInputs& in, Visibility& out) override;
   Counts memory() const override;
-  gpu::Plan memory_needed(int width_px, int height_px) const override;
+  gpu::Plan memory_needed(const FrameShape& shape) const override;
   std::vector<float> list_lengths(const FrameInputs& in) override;
   std::vector<uint64_t> list_histogram(const FrameInputs& in) override;
   std::vector<gpu::ProgramSpec> program_specs() const override { return izb_program_specs(); }
@@ -52,11 +53,15 @@ class Izb final : public Technique {
     bool culled;
   };
 
+  /// Grids that the light of the frame takes, one a cascade of each face.
+  int layers_of(const FrameInputs& in) const { return built_.cascades * static_cast<int>(in.light.grid.z); }
+
   void build(const FrameInputs& in);
+  void insert(const FrameInputs& in, const gpu::Program& program);
   int count_pool(const FrameInputs& in);
   void grow_pool(int rows);
-  void zcull();
-  void pyramid();
+  void zcull(int layers);
+  void pyramid(int layers);
   void visibility(const FrameInputs& in, Visibility& out, const Pass& pass);
   void bind_lists(const Visibility& out) const;
   void draw(const FrameInputs& in, const Pass& pass);
@@ -67,10 +72,10 @@ class Izb final : public Technique {
   IzbLists read_lists() const;
 
   IzbSettings settings_, built_;  ///< as the options say; as the programs and textures were made
-  int width_px_ = 0, height_px_ = 0;
+  FrameShape shape_;
   IzbPrograms programs_;
   HardwareRaster hardware_;
-  gpu::Texture heads_;     ///< light-space grids of head pointers, one a cascade
+  gpu::Texture heads_;     ///< light-space grids of head pointers, one a layer
   gpu::Texture nodes_;     ///< screen-space grid of nodes, or the pool of exact insertion
   gpu::Texture furthest_;  ///< bits of the furthest node's depth
   gpu::Texture depth_;     ///< the same as a depth buffer

@@ -84,7 +84,7 @@ IzbLists Izb::read_lists() const {
 IzbInternals Izb::internals() const {
   IzbInternals all;
   all.grid = built_.grid;
-  all.cascades = built_.cascades;
+  all.layers = built_.cascades * shape_.faces;
   all.lists = read_lists();
   // The images hold the floats' bits, since atomics know only integers.
   const auto floats = [](const gpu::Texture& bits) { return bits.read<float>(GL_RED_INTEGER, GL_UNSIGNED_INT, 1); };
@@ -102,11 +102,11 @@ IzbInternals Izb::internals() const {
 std::vector<float> Izb::list_lengths(const FrameInputs& in) {
   restore_lists(in);
   const IzbLists lists = read_lists();
-  std::vector<float> lengths(size_t(width_px_) * height_px_, 0.0f);
+  std::vector<float> lengths(size_t(shape_.width_px) * shape_.height_px, 0.0f);
   for (size_t i = 0; i < lists.count(); ++i)
     for (const uint32_t node : lists[i]) {
       const glm::ivec2 px = shared::pixel_from_node(node);
-      float& longest = lengths[size_t(px.y) * width_px_ + px.x];
+      float& longest = lengths[size_t(px.y) * shape_.width_px + px.x];
       longest = std::max(longest, static_cast<float>(lists[i].size()));
     }
   return lengths;

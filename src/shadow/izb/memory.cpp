@@ -17,10 +17,11 @@ gpu::Planned planned_pool(int rows) {
 
 }  // namespace
 
-gpu::Plan Izb::memory_needed(int width_px, int height_px) const {
+gpu::Plan Izb::memory_needed(const FrameShape& shape) const {
+  const int width_px = shape.width_px, height_px = shape.height_px, layers = settings_.cascades * shape.faces;
   const IzbSettings& s = settings_;
   const auto grids = [&](const char* part, GLenum format) {
-    return gpu::planned_texture(part, format, s.grid, s.grid, {"--grid", "--cascades"}, s.cascades);
+    return gpu::planned_texture(part, format, s.grid, s.grid, {"--grid", "--cascades"}, layers);
   };
   gpu::Plan plan{grids("heads", GL_R32UI)};
   if (s.pool())
@@ -36,7 +37,7 @@ gpu::Plan Izb::memory_needed(int width_px, int height_px) const {
   if (s.pyramid())
     plan.push_back(gpu::planned_texture("zcull", GL_R32UI,
                                         shared::pyramid_side(s.grid, 0) + shared::pyramid_side(s.grid, 1),
-                                        shared::pyramid_height(s.grid), {"--grid", "--cascades"}, s.cascades));
+                                        shared::pyramid_height(s.grid), {"--grid", "--cascades"}, layers));
   using Kind = gpu::Planned::Kind;
   const auto buffer = [&](const char* part, Kind kind, uint64_t bytes, std::vector<std::string> reduce = {}) {
     plan.push_back(gpu::planned_buffer(part, kind, bytes, std::move(reduce)));

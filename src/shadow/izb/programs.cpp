@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "shared/light.h"
 
 namespace izb {
 
@@ -35,12 +36,14 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
     define(s.table(), "TABLE");
     define(s.pool(), "POOL");
   };
+  const int faces = light == LightKind::cube ? shared::cube_faces : 1;
   const auto fragment_defines = [&](const char* variant) {
     walk_defines();
+    define(faces > 1, "CUBE");
     define(s.removal, "REMOVAL");
     define(s.unchanged_skip, "SKIP");
     define(s.pipelining, "PIPELINE");
-    if (s.cascades > 1) defines["CASCADES"] = std::to_string(s.layers_a_pass());
+    if (s.cascades * faces > 1) defines["LAYERS"] = std::to_string(s.layers_a_pass(faces));
     if (*variant) defines[variant] = "1";
   };
   const auto visibility = [&](bool pyramid, const char* variant) -> gpu::ProgramSpec {
@@ -62,6 +65,7 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
   };
   const auto build = [&](bool count) -> gpu::ProgramSpec {
     light_defines();
+    define(faces > 1, "CUBE");
     define(s.zcull, "ZCULL");
     define(s.many_samples(), "SPP32");
     if (s.many_samples())
@@ -115,7 +119,7 @@ std::vector<gpu::ProgramSpec> izb_program_specs() {
     for (int p = 0; p < static_cast<int>(IzbProgram::count); ++p) {
       const IzbProgram program = static_cast<IzbProgram>(p);
       if (!belongs(program, settings)) continue;
-      for (const LightKind light : {LightKind::directional, LightKind::positional}) {
+      for (const LightKind light : {LightKind::directional, LightKind::positional, LightKind::cube}) {
         gpu::ProgramSpec spec = izb_program_spec(program, settings, light);
         const bool known = std::any_of(all.begin(), all.end(), [&](const gpu::ProgramSpec& other) {
           return other.files == spec.files && other.defines == spec.defines;

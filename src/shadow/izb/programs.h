@@ -28,7 +28,8 @@ enum class IzbProgram {
 };
 
 /// Of what a software renderer would run for every light though only one kind needs it.
-enum class LightKind { directional, positional };
+/// A cube is a positional light with six grids.
+enum class LightKind { directional, positional, cube };
 
 gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& settings, LightKind light);
 
@@ -48,7 +49,7 @@ class IzbPrograms {
  private:
   IzbSettings settings_;
   LightKind light_ = LightKind::directional;
-  std::vector<gpu::Program> programs_[2];
+  std::vector<gpu::Program> programs_[3];
 };
 
 }  // namespace izb

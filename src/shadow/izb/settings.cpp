@@ -25,6 +25,9 @@ OptionSet IzbSettings::options() {
              "dilate triangles in a geometry shader, or by the hardware's conservative rasteriser and a pass-through "
              "geometry shader, which NVIDIA GPUs have since GM204 (7)");
   set.integer("grid", grid, 16, 16384, "texels", "side of the light-space grid of lists (6.3)");
+  set.number("grid-density", grid_density, 0.0, 1000.0, "texels a receiver",
+             "a grid whose window holds few receivers uses no more texels than that for each, since small texels only "
+             "meet more triangles; 0: all of its texels (6.3)");
   set.integer("cascades", cascades, 1, 8, "cascades", "grids, by a logarithmic split of the visible depth range (6.4)");
   set.choice("cascade-pass", cascade_pass, {"single", "multiple"},
              "draw the casters once for all cascades, or once for each as in the paper (5.5)");
@@ -59,6 +62,7 @@ void IzbSettings::apply(const std::string& preset) {
     insertion = "nv";
     cascades = 4;
     cascade_pass = "multiple";
+    grid_density = 0.0;
     removal = unchanged_skip = pipelining = true;
   } else if (preset == "exact") {
     sampling.spp = "32";

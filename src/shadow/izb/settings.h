@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The options of the technique `izb`.
 #pragma once
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ struct IzbSettings {
   SampleOptions sampling;
   std::string coverage = "lut", lut = "64", insertion = "approximate", cascade_pass = "single", raster = "gs";
   int grid = 2048, nodes = 8, cascades = 1;
-  double dilation_texels = 1.0;
+  double dilation_texels = 1.0, grid_density = 4.0;
   bool zcull = true, zcull_pyramid = true, nl_cull = true;
   bool removal = true, unchanged_skip = true, pipelining = false;
   int pair_capacity = by_size;
@@ -42,8 +43,9 @@ struct IzbSettings {
   double dilation() const { return many_samples() && !pool() ? dilation_texels : 0.5; }
   /// Room for unsure pairs: as asked, or by the picture's size: at 32 samples twice the most seen.
   int pairs(int width_px, int height_px) const;
-  /// Layers that one draw of the casters reaches.
-  int layers_a_pass() const { return cascade_pass == "single" ? cascades : 1; }
+  /// Layers of such a light that one draw of the casters reaches. More than eight would be more than a geometry shader
+  /// may put out everywhere.
+  int layers_a_pass(int faces) const { return cascade_pass == "single" ? std::min(cascades * faces, 8) : 1; }
 };
 
 }  // namespace izb

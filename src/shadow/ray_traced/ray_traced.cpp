@@ -29,7 +29,7 @@ class RayTraced final : public Technique {
   }
   SamplePattern samples() const override { return sampling_.samples(); }
   GridRequest grid() const override { return {1, nl_cull_}; }
-  void resize(int, int) override {}
+  void resize(const FrameShape&) override {}
 
   void render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) override {
     const gpu::StageTimers::Scope scope(timers, name(Stage::visibility));
@@ -38,7 +38,7 @@ class RayTraced final : public Technique {
 
   Counts count(const FrameInputs& in, Visibility& out) override { return {{"rays", trace(in, out)}}; }
   Counts memory() const override { return {}; }
-  gpu::Plan memory_needed(int, int) const override { return {}; }
+  gpu::Plan memory_needed(const FrameShape&) const override { return {}; }
   std::vector<gpu::ProgramSpec> program_specs() const override { return {}; }
 
  private:

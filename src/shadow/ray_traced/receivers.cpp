@@ -44,7 +44,7 @@ reference::Receivers make_receivers(const GBufferImage& image, const FrameInputs
 
 reference::LightPoint make_light_point(const shared::LightFrame& light) {
   const bool positional = shared::is_positional(light);
-  return {positional ? glm::vec3(light.origin) : glm::vec3(light.to_light), positional};
+  return {positional ? glm::vec3(light.origin) : glm::vec3(light.to_light), positional, light.axis_x.w};
 }
 
 }  // namespace izb
