@@ -5,6 +5,7 @@
 #include <charconv>
 #include <filesystem>
 #include <glm/gtc/constants.hpp>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -177,6 +178,9 @@ OptionSet FrameOptions::options() {
            "a spot light: position, target (world units), half-angle (degrees, up to 90)");
   set.text("point", point, "X,Y,Z", "a light that shines all around: position in world units");
   set.text("viewpoint", viewpoint, "NAME", "a named view of the views file: camera and light");
+  set.number("time", time_s, -1.0, std::numeric_limits<double>::infinity(), "seconds",
+             "the moment of the animation; -1: meshes at rest, or its beginning where --animation names one");
+  set.text("animation", animation, "NAME|INDEX", "an animation of the scene; with --time alone its first");
   set.text("views", views, "FILE", "the views file");
   set.choice("technique", technique, technique_names(), "the shadow technique; its own options are listed below");
   set.text(
@@ -184,6 +188,11 @@ OptionSet FrameOptions::options() {
       "the technique's options as a whole, others on the command line still count: izb has paper (table 1) and exact");
   set.choice("context", context, gpu::context_names(), "how to get an OpenGL 4.5 context");
   return set;
+}
+
+std::optional<AnimationMoment> FrameOptions::moment() const {
+  if (time_s < 0.0 && animation.empty()) return std::nullopt;
+  return AnimationMoment{animation, std::max(time_s, 0.0)};
 }
 
 Size parse_size(const std::string& text) {

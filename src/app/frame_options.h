@@ -2,9 +2,11 @@
 // What `render` and `validate` have in common on the command line: which frame, by which technique.
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/options.h"
+#include "scene/gltf.h"
 #include "scene/scene.h"
 #include "scene/view.h"
 #include "shadow/technique.h"
@@ -18,6 +20,8 @@ struct FrameOptions {
   double fov_deg = 45.0;
   std::string light, sun, spot, point;
   std::string viewpoint;
+  std::string animation;
+  double time_s = -1.0;
   std::string views = "bench/views.json";
   std::string technique = "izb";
   std::string preset;
@@ -25,6 +29,8 @@ struct FrameOptions {
 
   /// Declares them; `technique` and `context` choices come from the registries.
   OptionSet options();
+  /// The moment at which the scene is loaded; nothing: at rest.
+  std::optional<AnimationMoment> moment() const;
 };
 
 struct Size {

@@ -51,6 +51,9 @@ void print_scene(const std::string& path) {
   for (size_t i = 0; i < scene.lights.size(); ++i)
     table.add_row(
         {fmt::format("light {}", i), fmt::format("{} ({})", scene.lights[i].name, type_name(scene.lights[i].type))});
+  for (size_t i = 0; i < scene.animations.size(); ++i)
+    table.add_row({fmt::format("animation {}", i),
+                   fmt::format("{} ({:.3g} s)", scene.animations[i].name, scene.animations[i].length_s)});
   for (const std::string& sentence : scene.ignored) table.add_row({"ignored", sentence});
   fmt::print("{}", table.str());
 }

@@ -51,15 +51,15 @@ Gl::Gl(const std::string& context_name)
 
 namespace {
 
-Scene load_with_progress(const std::string& path) {
+Scene load_with_progress(const std::string& path, const std::optional<AnimationMoment>& moment) {
   const Progress progress("loading " + path, 0);
-  return load_gltf(path);
+  return load_gltf(path, moment);
 }
 
 }  // namespace
 
 Session::Session(const FrameOptions& options, std::unique_ptr<Technique> its_technique, const std::string& scene_path)
-    : scene(load_with_progress(scene_path)),
+    : scene(load_with_progress(scene_path, options.moment())),
       frame(choose_frame(options, scene)),
       gl(options.context),
       technique(std::move(its_technique)),

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_animation.h"
 #include "scene/gltf_check.h"
 #include "scene/gltf_document.h"
 #include "scene/gltf_material.h"
@@ -40,13 +41,13 @@ std::vector<glm::dmat4> joints_at_rest(const tinygltf::Model& model, int skin_in
 /// unless a node poses it by a skin or by morph weights of its own.
 class InstanceLoader {
  public:
-  InstanceLoader(const tinygltf::Model& model, const NodeHierarchy& nodes, Scene& scene)
-      : model_(model), nodes_(nodes), scene_(scene) {}
+  InstanceLoader(const tinygltf::Model& model, const NodeHierarchy& nodes, bool at_rest, Scene& scene)
+      : model_(model), nodes_(nodes), at_rest_(at_rest), scene_(scene) {}
 
   void run() {
     for (const int i : nodes_.in_scene)
       if (model_.nodes[static_cast<size_t>(i)].mesh >= 0) add_node(static_cast<size_t>(i));
-    tally_.describe(scene_.ignored);
+    tally_.describe(scene_.ignored, at_rest_);
     if (scene_.triangle_count() == 0)
       fail("its scene holds no triangle{}",
            tally_.point_primitives + tally_.line_primitives > 0 ? ", only points or lines" : "");
@@ -110,6 +111,7 @@ class InstanceLoader {
 
   const tinygltf::Model& model_;
   const NodeHierarchy& nodes_;
+  const bool at_rest_;
   Scene& scene_;
   MeshTally tally_;
   std::map<std::pair<int, int>, int> shared_;  ///< mesh and primitive of the file → mesh of the scene
@@ -133,29 +135,32 @@ void describe_extensions(const tinygltf::Model& model, Scene& scene) {
                                 ? fmt::format("the extension {} is ignored: each mesh is shown once a node", name)
                                 : fmt::format("the extension {} is ignored", name));
   }
-  if (!model.animations.empty())
-    scene.ignored.push_back(fmt::format("animations: {}, not played", model.animations.size()));
 }
 
-Scene load(const std::filesystem::path& path) {
+Scene load(const std::filesystem::path& path, const std::optional<AnimationMoment>& moment) {
   tinygltf::Model model = read_gltf_document(path);
+  if (moment) pose_nodes(model, *moment);
   const NodeHierarchy nodes = flatten_nodes(model);
   Scene scene;
   scene.name = path.stem().string();
   load_materials(model, scene);
-  InstanceLoader(model, nodes, scene).run();
+  scene.animations = describe_animations(model);
+  InstanceLoader(model, nodes, !moment, scene).run();
   add_default_material(scene);
   load_cameras(model, nodes, scene);
   load_lights(model, nodes, scene);
   describe_extensions(model, scene);
+  if (!moment && !scene.animations.empty())
+    scene.ignored.push_back(fmt::format("animations: {}, none is played (--time and --animation choose a moment)",
+                                        scene.animations.size()));
   return scene;
 }
 
 }  // namespace
 
-Scene load_gltf(const std::filesystem::path& path) {
+Scene load_gltf(const std::filesystem::path& path, const std::optional<AnimationMoment>& moment) {
   try {
-    return load(path);
+    return load(path, moment);
   } catch (const Error& e) {
     fail("cannot load '{}': {}", path.string(), e.what());
   } catch (const std::bad_alloc&) {

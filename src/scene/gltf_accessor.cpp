@@ -34,6 +34,8 @@ Elements locate(const tinygltf::Model& model, int accessor, int buffer_view, siz
     fail("accessors[{}] has {} elements, more than bufferViews[{}] of {} bytes holds", accessor, count, buffer_view,
          view.byteLength);
   const std::vector<unsigned char>& buffer = model.buffers[static_cast<size_t>(view.buffer)].data;
+  if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
+    fail("bufferViews[{}] does not lie in its buffer", buffer_view);
   return {buffer.data() + view.byteOffset + byte_offset, count, stride};
 }
 
@@ -159,6 +161,10 @@ std::vector<Element> read(const tinygltf::Model& model, int index, int type, con
 
 size_t accessor_count(const tinygltf::Model& model, int accessor) {
   return accessor_at(model, accessor).count;
+}
+
+std::vector<float> read_floats(const tinygltf::Model& model, int accessor) {
+  return read<float, float>(model, accessor, TINYGLTF_TYPE_SCALAR, "SCALAR");
 }
 
 std::vector<glm::vec2> read_vec2(const tinygltf::Model& model, int accessor) {

@@ -14,6 +14,7 @@ namespace izb {
 size_t accessor_count(const tinygltf::Model& model, int accessor);
 
 /// Floats, or integers converted as the accessor's `normalized` says. The accessor's type must match.
+std::vector<float> read_floats(const tinygltf::Model& model, int accessor);
 std::vector<glm::vec2> read_vec2(const tinygltf::Model& model, int accessor);
 std::vector<glm::vec3> read_vec3(const tinygltf::Model& model, int accessor);
 std::vector<glm::vec4> read_vec4(const tinygltf::Model& model, int accessor);

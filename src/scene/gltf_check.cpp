@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "scene/gltf_compression.h"
 
 namespace izb {
 namespace {
@@ -64,6 +65,23 @@ constexpr auto rules = std::to_array<Rule>({
     {"meshes[].primitives[].mode", Kind::small_whole},
     {"meshes[].primitives[].targets[]", Kind::object},
     {"meshes[].primitives[].targets[]{}", Kind::index, false, 0, "accessors"},
+    {"meshes[].primitives[].extensions", Kind::object},
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression", Kind::object},
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.bufferView", Kind::index, true, 0, "bufferViews"},
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes", Kind::object, true},
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes{}", Kind::small_whole},
+    {"bufferViews[].extensions", Kind::object},
+    {"bufferViews[].extensions.EXT_meshopt_compression", Kind::object},
+    {"bufferViews[].extensions.EXT_meshopt_compression.buffer", Kind::index, true, 0, "buffers"},
+    {"bufferViews[].extensions.EXT_meshopt_compression.byteOffset", Kind::whole},
+    {"bufferViews[].extensions.EXT_meshopt_compression.byteLength", Kind::whole, true},
+    {"bufferViews[].extensions.EXT_meshopt_compression.byteStride", Kind::small_whole, true},
+    {"bufferViews[].extensions.EXT_meshopt_compression.count", Kind::whole, true},
+    {"bufferViews[].extensions.EXT_meshopt_compression.mode", Kind::text, true},
+    {"bufferViews[].extensions.EXT_meshopt_compression.filter", Kind::text},
+    {"buffers[].extensions", Kind::object},
+    {"buffers[].extensions.EXT_meshopt_compression", Kind::object},
+    {"buffers[].extensions.EXT_meshopt_compression.fallback", Kind::boolean},
     {"accessors[]", Kind::object},
     {"accessors[].bufferView", Kind::index, false, 0, "bufferViews"},
     {"accessors[].byteOffset", Kind::whole},
@@ -141,6 +159,16 @@ constexpr auto rules = std::to_array<Rule>({
     {"skins[].inverseBindMatrices", Kind::index, false, 0, "accessors"},
     {"skins[].skeleton", Kind::index, false, 0, "nodes"},
     {"animations[]", Kind::object},
+    {"animations[].name", Kind::text},
+    {"animations[].channels[]", Kind::object, true},
+    {"animations[].channels[].sampler", Kind::small_whole, true},
+    {"animations[].channels[].target", Kind::object, true},
+    {"animations[].channels[].target.node", Kind::index, false, 0, "nodes"},
+    {"animations[].channels[].target.path", Kind::text, true},
+    {"animations[].samplers[]", Kind::object, true},
+    {"animations[].samplers[].input", Kind::index, true, 0, "accessors"},
+    {"animations[].samplers[].output", Kind::index, true, 0, "accessors"},
+    {"animations[].samplers[].interpolation", Kind::text},
     {"extensions.KHR_lights_punctual.lights[]", Kind::object, true},
     {"extensions.KHR_lights_punctual.lights[].name", Kind::text},
     {"extensions.KHR_lights_punctual.lights[].type", Kind::text, true},
@@ -326,6 +354,8 @@ void check_accessor_types(const json& root) {
 }  // namespace
 
 bool gltf_extension_is_supported(std::string_view name) {
+  if (name == "EXT_meshopt_compression") return meshopt_available();
+  if (name == "KHR_draco_mesh_compression") return draco_available();
   return std::find(supported_extensions.begin(), supported_extensions.end(), name) != supported_extensions.end();
 }
 

@@ -23,6 +23,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "scene/gltf_check.h"
+#include "scene/gltf_compression.h"
 
 namespace izb {
 namespace {
@@ -76,6 +77,24 @@ std::string_view glb_json(const Bytes& bytes) {
       fail("the GLB's second chunk is longer than the file");
   }
   return {reinterpret_cast<const char*>(&bytes[json_begin]), json_length};
+}
+
+/// The same GLB with another JSON text.
+Bytes glb_with_json(const Bytes& bytes, std::string text) {
+  constexpr size_t header_size = 12, chunk_header_size = 8;
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  const size_t rest_begin = header_size + chunk_header_size + little_endian_u32(&bytes[12]);
+  const size_t length = little_endian_u32(&bytes[8]);
+  Bytes out(bytes.begin(), bytes.begin() + header_size + chunk_header_size);
+  out.insert(out.end(), text.begin(), text.end());
+  out.insert(out.end(), bytes.begin() + static_cast<std::ptrdiff_t>(rest_begin),
+             bytes.begin() + static_cast<std::ptrdiff_t>(length));
+  const auto put_u32 = [&](size_t at, size_t value) {
+    for (size_t k = 0; k < 4; ++k) out[at + k] = static_cast<unsigned char>(value >> (8 * k));
+  };
+  put_u32(8, out.size());
+  put_u32(12, text.size());
+  return out;
 }
 
 /// tinygltf walks nested values recursively, so a hostile depth would overflow its stack.
@@ -232,16 +251,24 @@ tinygltf::Model read_gltf_document(const fs::path& path) {
   if (bytes.empty()) fail("it is empty");
   if (bytes.size() > 0xffffffffu) fail("it is larger than 4 GiB");
   const bool glb = is_glb(bytes);
-  const std::string_view text =
+  std::string_view text =
       glb ? glb_json(bytes) : std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   Resources resources;
+  Compression compression;
+  std::string rewritten;  // the JSON, where it had to change
   {
-    const json root = parse_json(text, glb);
+    json root = parse_json(text, glb);
     check_gltf_json(root);
     add_buffer_files(root, folder, resources);
     add_images(root, folder, resources);
+    compression = take_compression(root);
+    if (compression.any()) rewritten = root.dump();
+  }
+  if (!rewritten.empty()) {
+    bytes = glb ? glb_with_json(bytes, rewritten) : Bytes(rewritten.begin(), rewritten.end());
+    text = std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   }
 
   tinygltf::TinyGLTF parser;
@@ -255,6 +282,7 @@ tinygltf::Model read_gltf_document(const fs::path& path) {
       glb ? parser.LoadBinaryFromMemory(&model, &error, &ignored_warning, bytes.data(), size, folder.string())
           : parser.LoadASCIIFromString(&model, &error, &ignored_warning, text.data(), size, folder.string());
   if (!ok) fail("{}", first_sentence(error));
+  decompress(model, compression);
   warn_of_absent_images(model, resources, path);
   return model;
 }

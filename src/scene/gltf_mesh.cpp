@@ -246,7 +246,7 @@ std::optional<Mesh> load_primitive(const tinygltf::Model& model, const Primitive
   }
 }
 
-void MeshTally::describe(std::vector<std::string>& ignored) const {
+void MeshTally::describe(std::vector<std::string>& ignored, bool at_rest) const {
   const auto say = [&](const char* what, size_t count, const char* consequence) {
     if (count > 0) ignored.push_back(fmt::format("{}: {}, {}", what, count, consequence));
   };
@@ -256,6 +256,7 @@ void MeshTally::describe(std::vector<std::string>& ignored) const {
   say("vertices beyond the last whole triangle of their primitive", trailing_indices, "not used");
   say("normals without a direction", bad_normals, "replaced by the normal of their triangles");
   say("primitives with vertex colours", colored_primitives, "the colours are not shown");
+  if (!at_rest) return;
   say("skinned primitives", skinned_primitives, "standing in bind pose (their joints at rest)");
   say("primitives with morph targets", morphed_primitives, "standing still with their default weights");
 }

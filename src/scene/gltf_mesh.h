@@ -20,8 +20,8 @@ struct MeshTally {
   size_t colored_primitives = 0;  ///< with COLOR_0
   size_t skinned_primitives = 0, morphed_primitives = 0;
 
-  /// One sentence for each thing that was counted, appended to `ignored`.
-  void describe(std::vector<std::string>& ignored) const;
+  /// One sentence for each thing that was counted, appended to `ignored`; `at_rest`: no animation poses the meshes.
+  void describe(std::vector<std::string>& ignored, bool at_rest) const;
 };
 
 /// Where a primitive stands in the file, and how it is posed.

@@ -87,6 +87,12 @@ struct Bounds {
   double radius() const { return empty() ? 0.0 : 0.5 * glm::length(max - min); }
 };
 
+/// An animation of the file that a scene was loaded from.
+struct AnimationInfo {
+  std::string name;
+  double length_s = 0.0;
+};
+
 struct Scene {
   std::string name;  ///< stem of the file it came from
   std::vector<Mesh> meshes;
@@ -95,6 +101,7 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<Light> lights;
   std::vector<Camera> cameras;
+  std::vector<AnimationInfo> animations;
   std::vector<std::string>
       ignored;  ///< one sentence for each thing of the file that is not shown, or shown differently
 

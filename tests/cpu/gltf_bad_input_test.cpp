@@ -243,8 +243,8 @@ const std::vector<Damage> damages = {
     {"wrong type", [](GltfWriter& g) { g.root["nodes"] = "none"; }, "nodes is not an array"},
     {"wrong element", [](GltfWriter& g) { g.root["accessors"][0] = 1; }, "accessors[0] is not an object"},
     {"missing property", [](GltfWriter& g) { g.root["accessors"][0].erase("count"); }, "accessors[0] has no 'count'"},
-    {"required extension", [](GltfWriter& g) { g.root["extensionsRequired"] = {"KHR_draco_mesh_compression"}; },
-     "requires the extension KHR_draco_mesh_compression"},
+    {"required extension", [](GltfWriter& g) { g.root["extensionsRequired"] = {"KHR_future_geometry"}; },
+     "requires the extension KHR_future_geometry"},
     {"image view",
      [](GltfWriter& g) {
        g.root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 40}, {"byteLength", 4000}});

@@ -23,6 +23,40 @@ TEST_F(Bars32, NothingUnexplained) {
     }
 }
 
+// At 1280 x 720. Lights that shine all around from within each scene, several at once, and a sun at the horizon; and
+// what moves, at three moments.
+TEST_F(Bars32, NothingUnexplainedUnderAnyLightAtAnyTime) {
+  std::printf("%-28s %-32s %10s %10s %9s %9s %11s\n", "scene", "case", "compared", "shadowed", "disputed", "explained",
+              "unexplained");
+  const auto check = [&](const fs::path& scene, const std::vector<std::string>& options) {
+    std::vector<std::string> all{"--preset", "exact", "--size", "1280x720"};
+    all.insert(all.end(), options.begin(), options.end());
+    nlohmann::json reports = run("validate", scene, all);
+    if (reports.is_null()) return;
+    if (!reports.is_array()) reports = nlohmann::json::array({reports});
+    for (const nlohmann::json& j : reports) {
+      const std::string what = options.back() + " " + j["light"]["name"].get<std::string>();
+      std::printf("%-28s %-32s %10.0f %10.0f %9d %9d %11d\n", scene.stem().c_str(), what.c_str(),
+                  j["compared"].get<double>(), j["shadowed"].get<double>(), j["disputed"].get<int>(),
+                  j["explained"].get<int>(), j["unexplained"].get<int>());
+      EXPECT_EQ(j["unexplained"], 0) << scene << what;
+    }
+  };
+  const std::vector<std::pair<std::string, std::string>> lamps{{"sponza_dabrovic", "2,4,0"},
+                                                               {"nexuiz_aneurysm", "750,150,-1450"},
+                                                               {"kicad_video_board", "110,12,115"},
+                                                               {"ldraw_xwing", "120,90,60"},
+                                                               {"morse_human_rig", "0.8,1.6,0.4"}};
+  for (const fs::path& scene : scenes) {
+    check(scene, {"--sun", "200,0.5"});
+    for (const auto& [name, lamp] : lamps)
+      if (scene.stem() == name) check(scene, {"--spot", lamp + ",0,0,0,80", "--point", lamp});
+    for (const char* moving : {"morse_human_rig", "stk_tux_animated"})
+      if (scene.stem() == moving)
+        for (const char* time_s : {"0.3", "1.1", "2.7"}) check(scene, {"--time", time_s});
+  }
+}
+
 TEST_F(Bars32, InsertionLeaks) {
   std::vector<double> leaks, nv_leaks;
   std::printf("%-28s %10s %9s %9s %9s %9s %9s %12s\n", "scene", "shadowed", "table", "leaks", "percent", "nv leaks",
