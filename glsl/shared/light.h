@@ -62,29 +62,15 @@ SHARED vec3 on_face(IN(vec3) p_ls, int f) {
   return p_ls;
 }
 
-// The light with the axes of that face.
+// The light with the axes of that face: as a point's coordinates change, so do the rows of the matrix that gives them.
 SHARED LightFrame light_face(IN(LightFrame) light, int f) {
+  vec3 x = on_face(vec3(light.axis_x.x, light.axis_y.x, light.axis_z.x), f);
+  vec3 y = on_face(vec3(light.axis_x.y, light.axis_y.y, light.axis_z.y), f);
+  vec3 z = on_face(vec3(light.axis_x.z, light.axis_y.z, light.axis_z.z), f);
   LightFrame face = light;
-  if (f == 1) {
-    face.axis_x = -light.axis_x;
-    face.axis_z = -light.axis_z;
-  }
-  if (f == 2) {
-    face.axis_x = -light.axis_z;
-    face.axis_z = light.axis_x;
-  }
-  if (f == 3) {
-    face.axis_x = light.axis_z;
-    face.axis_z = -light.axis_x;
-  }
-  if (f == 4) {
-    face.axis_y = -light.axis_z;
-    face.axis_z = light.axis_y;
-  }
-  if (f == 5) {
-    face.axis_y = light.axis_z;
-    face.axis_z = -light.axis_y;
-  }
+  face.axis_x = vec4(x.x, y.x, z.x, light.axis_x.w);
+  face.axis_y = vec4(x.y, y.y, z.y, light.axis_y.w);
+  face.axis_z = vec4(x.z, y.z, z.z, light.axis_z.w);
   return face;
 }
 

@@ -136,7 +136,7 @@ void make_names_unique(std::vector<Light>& lights) {
   for (Light& light : lights) {
     const std::string name = light.name.empty() ? type_name(light.type) : light.name;
     light.name = name;
-    for (int n = 2; !taken.insert(light.name).second; ++n) light.name = fmt::format("{} {}", name, n);
+    for (int n = 2; !taken.insert(layer_name(light.name)).second; ++n) light.name = fmt::format("{} {}", name, n);
   }
 }
 
@@ -160,6 +160,11 @@ std::vector<Light> choose_lights(const FrameOptions& o, const Scene& scene, cons
 }
 
 }  // namespace
+
+std::string layer_name(std::string name) {
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
 
 OptionSet FrameOptions::options() {
   OptionSet set;

@@ -33,6 +33,9 @@ struct FrameOptions {
   std::optional<AnimationMoment> moment() const;
 };
 
+/// A light's name as a layer of an image's channels, where a dot would begin another layer.
+std::string layer_name(std::string name);
+
 struct Size {
   int width_px, height_px;
 };
@@ -41,7 +44,7 @@ struct Size {
 struct FrameChoice {
   Size size;
   Camera camera;
-  std::vector<Light> lights;  ///< at least one; no two have the same name
+  std::vector<Light> lights;  ///< at least one; no two have the same layer_name()
 };
 
 /// Throws izb::UsageError for text that does not parse or options that exclude each other, izb::Error for names that

@@ -43,9 +43,7 @@ void add_camera(Image& image, const Session& session) {
 /// What the channels of a light are called after the first word: nothing where there is one light.
 std::string suffix_of(const Session& session, size_t light) {
   if (session.frame.lights.size() == 1) return {};
-  std::string name = "." + session.frame.lights[light].name;
-  std::replace(name.begin() + 1, name.end(), '.', '_');  // a dot would begin another layer
-  return name;
+  return "." + layer_name(session.frame.lights[light].name);
 }
 
 void add_light(Image& image, const Light& light, const std::string& suffix) {

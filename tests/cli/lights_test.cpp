@@ -83,6 +83,16 @@ TEST_F(Lights, OfTheCommandLineJoinThoseOfTheScene) {
   EXPECT_EQ(names, (std::vector<std::string>{"beam", "noon", "sun", "sun 2", "point"}));
 }
 
+TEST_F(Lights, NamesThatDifferByADotHaveChannelsOfTheirOwn) {
+  GltfWriter gltf = three_lights();
+  json& lights = gltf.root["extensions"]["KHR_lights_punctual"]["lights"];
+  lights[1]["name"] = "a.b", lights[2]["name"] = "a_b";
+  write_file(scene, gltf.glb());
+  ASSERT_EQ(render({"--light", "all"}).code, 0);
+  const Image image = izb::read_exr(exr);
+  for (const char* name : {"mask.noon", "mask.a_b", "mask.a_b 2"}) EXPECT_NE(image.find(name), nullptr) << name;
+}
+
 TEST_F(Lights, WithoutAChoiceTheFirstIsTakenAndTheOthersAreMentioned) {
   const Outcome outcome = render({});
   ASSERT_EQ(outcome.code, 0);

@@ -2,8 +2,9 @@
 // 5.3 Creating the irregular z-buffer: each receiver goes into the list of its light-space texel. Nodes stand in a
 // preallocated screen-space grid, so that a node's address is its pixel and slot and a node needs nothing but a next pointer
 // (6.2); at one sample a pixel the receiver's eye distance stands beside it, since a walk that reads one reads the other.
-// Defines: ZCULL; CUBE: a grid for each of six faces; SPP32, and then how it is inserted (6.1): COVER (texels that answer for all of it), BY_VIEW,
-// BY_SAMPLES, or POOL (every texel that it touches; COUNT_NODES only counts them); STRIDE: in another order, for tests.
+// Defines: ZCULL; CUBE: a grid for each of six faces; SPP32, and then how it is inserted (6.1): COVER (texels that answer for
+// all of it), BY_VIEW, BY_SAMPLES, or POOL (every texel that it touches; COUNT_NODES only counts them); STRIDE: in another
+// order, for tests.
 #include "shared/bindings.h"
 #include "shared/faces.h"
 #include "shadow/izb/nodes.glsl"
