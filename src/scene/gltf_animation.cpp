@@ -14,10 +14,8 @@
 namespace izb {
 namespace {
 
-enum class Interpolation { step, linear, cubic_spline };
-
 /// One property's keys: `width` numbers each, of a spline three times as many (in-tangent, value, out-tangent).
-struct Track {
+struct KeyTrack {
   std::vector<float> times_s;
   std::vector<double> values;
   Interpolation interpolation = Interpolation::linear;
@@ -89,8 +87,8 @@ std::vector<double> read_values(const tinygltf::Model& model, int accessor, cons
   return flattened(read_vec3(model, accessor));
 }
 
-Track read_track(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler, const std::string& path) {
-  Track track;
+KeyTrack read_track(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler, const std::string& path) {
+  KeyTrack track;
   track.interpolation = interpolation_of(sampler.interpolation);
   track.rotation = path == "rotation";
   track.times_s = read_floats(model, sampler.input);
@@ -140,10 +138,11 @@ const tinygltf::AnimationSampler& sampler_of(const tinygltf::Animation& animatio
 
 }  // namespace
 
-std::vector<AnimationInfo> describe_animations(const tinygltf::Model& model) {
-  std::vector<AnimationInfo> all;
+std::vector<Animation> describe_animations(const tinygltf::Model& model) {
+  std::vector<Animation> all;
   for (const tinygltf::Animation& animation : model.animations) {
-    AnimationInfo info{animation.name, 0.0};
+    Animation info;
+    info.name = animation.name;
     for (const tinygltf::AnimationSampler& sampler : animation.samplers)
       if (const std::vector<float> times_s = read_floats(model, sampler.input); !times_s.empty())
         info.length_s = std::max(info.length_s, double(times_s.back()));

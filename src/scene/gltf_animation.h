@@ -12,7 +12,7 @@ class Model;
 namespace izb {
 
 /// Name and length of each animation of a file.
-std::vector<AnimationInfo> describe_animations(const tinygltf::Model& model);
+std::vector<Animation> describe_animations(const tinygltf::Model& model);
 
 /// Gives the nodes the translations, rotations, scales and morph weights that they have at that moment: a time before
 /// the first key is that key's, one after the last is the last's. Throws izb::Error with the cause alone: an animation

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <limits>
 #include <optional>
 #include <string>
@@ -10,7 +11,13 @@
 
 namespace izb {
 
-/// One indexed triangle list in object space. `normals` and `uvs` are empty or have one entry a position.
+/// A morph target: what is added to each position and normal, times its weight. Either is empty or has one entry a
+/// position of its mesh.
+struct MorphTarget {
+  std::vector<glm::vec3> positions, normals;
+};
+
+/// One indexed triangle list in object space, at rest. `normals` and `uvs` are empty or have one entry a position.
 struct Mesh {
   std::string name;
   std::vector<glm::vec3> positions;
@@ -19,13 +26,41 @@ struct Mesh {
   std::vector<uint32_t> indices;   ///< 3 a triangle, every index < positions.size()
   uint32_t material = 0;
 
+  std::vector<MorphTarget> targets;
+  uint32_t influences = 0;       ///< joints that each vertex follows, 0: none
+  std::vector<uint16_t> joints;  ///< `influences` a vertex, entries of its skin's joints
+  std::vector<float> weights;    ///< likewise, of one vertex with the sum 1
+
   size_t triangle_count() const { return indices.size() / 3; }
 };
 
-/// One placement of a mesh.
+/// One placement of a mesh. What pose() changes is as the scene stands now.
 struct Instance {
   uint32_t mesh = 0;
-  glm::dmat4 world_from_object{1.0};
+  glm::dmat4 world_from_object{1.0};  ///< of a skinned one: from the space in which its skin puts it, a translation
+  int node = -1;                      ///< whose transform it takes, -1: none
+  int skin = -1;
+  std::vector<float> morph_weights{};  ///< one a target of the mesh, or empty: all 0
+
+  bool deforms() const { return skin >= 0 || !morph_weights.empty(); }
+};
+
+/// A node of the hierarchy, at rest.
+struct Node {
+  std::string name;
+  int parent = -1;  ///< a node before this one, -1: a root
+  glm::dvec3 translation{0.0};
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< unit length
+  glm::dvec3 scale{1.0};
+  std::optional<glm::dmat4> matrix;  ///< in place of the three, and not to be animated
+  std::vector<double> morph_weights;
+};
+
+/// What places the vertices of a skinned mesh (glTF 2.0, section 3.7.3).
+struct Skin {
+  std::vector<uint32_t> joints;             ///< nodes
+  std::vector<glm::dmat4> joint_from_bind;  ///< inverse bind matrices, one a joint
+  std::vector<glm::dmat4> world_from_bind;  ///< one a joint, as posed
 };
 
 enum class Wrap { repeat, mirrored_repeat, clamp_to_edge };
@@ -65,6 +100,7 @@ struct Light {
   double range = 0.0;           ///< of a positional light: beyond it there is none of its light; 0: no limit
   double inner_cone_rad = 0.0;  ///< spot: half-angle
   double outer_cone_rad = 0.7853981633974483;
+  int node = -1;  ///< that places it, -1: none
 };
 
 /// A camera: looks along -z of its own space.
@@ -76,6 +112,7 @@ struct Camera {
   double ymag = 1.0;      ///< orthographic: half the visible height, in world units
   double near_plane = 0.01;
   double far_plane = std::numeric_limits<double>::infinity();
+  int node = -1;  ///< that places it, -1: none
 };
 
 struct Bounds {
@@ -87,10 +124,23 @@ struct Bounds {
   double radius() const { return empty() ? 0.0 : 0.5 * glm::length(max - min); }
 };
 
-/// An animation of the file that a scene was loaded from.
-struct AnimationInfo {
+enum class Interpolation { step, linear, cubic_spline };
+enum class AnimatedProperty { translation, rotation, scale, morph_weights };
+
+/// The keys of one property of one node (glTF 2.0, section 3.11).
+struct Track {
+  uint32_t node = 0;
+  AnimatedProperty property = AnimatedProperty::translation;
+  Interpolation interpolation = Interpolation::linear;
+  std::vector<float> times_s;  ///< ascending, at least one
+  std::vector<float> values;   ///< the same number for each key; of a spline in-tangent, value, out-tangent
+};
+
+struct Animation {
   std::string name;
-  double length_s = 0.0;
+  std::vector<Track> tracks;
+  double length_s = 0.0;  ///< time of the last key
+  std::string fault;      ///< why it cannot be played, or empty
 };
 
 struct Scene {
@@ -101,7 +151,9 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<Light> lights;
   std::vector<Camera> cameras;
-  std::vector<AnimationInfo> animations;
+  std::vector<Node> nodes;  ///< parents before children; empty: nothing moves
+  std::vector<Skin> skins;
+  std::vector<Animation> animations;
   std::vector<std::string>
       ignored;  ///< one sentence for each thing of the file that is not shown, or shown differently
 
