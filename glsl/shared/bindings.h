@@ -25,6 +25,15 @@
 #define BIND_POOL 9
 #define BIND_METER 10
 #define BIND_EXPOSED 11
+// Of the deformation, which runs before all others: any that it leaves bound is bound anew.
+#define BIND_REST_POSITIONS 0
+#define BIND_REST_NORMALS 1
+#define BIND_TARGETS 2
+#define BIND_INFLUENCES 3
+#define BIND_JOINTS 4
+#define BIND_MORPH_WEIGHTS 5
+#define BIND_DEFORMED_POSITIONS 6
+#define BIND_DEFORMED_NORMALS 7
 
 // Texture units.
 #define UNIT_BASE_COLOR 0

@@ -18,15 +18,20 @@ struct InstanceFrame {
   vec4 row_x;
   vec4 row_y;
   vec4 row_z;
-  uvec4 info;  // x: first triangle in the frame's numbering, y: material, z: first entry in the index buffer
+  uvec4 info;  // x: first triangle in the frame's numbering, y: material, z: first entry in the index buffer,
+               // w: vertex that its index 0 means
 };
+
+SHARED vec3 placed(IN(vec4) row_x, IN(vec4) row_y, IN(vec4) row_z, IN(vec3) p) {
+  PRECISE float x = ((row_x.x * p.x + row_x.y * p.y) + row_x.z * p.z) + row_x.w;
+  PRECISE float y = ((row_y.x * p.x + row_y.y * p.y) + row_y.z * p.z) + row_y.w;
+  PRECISE float z = ((row_z.x * p.x + row_z.y * p.y) + row_z.z * p.z) + row_z.w;
+  return vec3(x, y, z);
+}
 
 // The one way in which a vertex reaches view space, in every stage and in C++: the scene of the frame *is* these floats.
 SHARED vec3 view_from_object(IN(InstanceFrame) instance, IN(vec3) p) {
-  PRECISE float x = ((instance.row_x.x * p.x + instance.row_x.y * p.y) + instance.row_x.z * p.z) + instance.row_x.w;
-  PRECISE float y = ((instance.row_y.x * p.x + instance.row_y.y * p.y) + instance.row_y.z * p.z) + instance.row_y.w;
-  PRECISE float z = ((instance.row_z.x * p.x + instance.row_z.y * p.y) + instance.row_z.z * p.z) + instance.row_z.w;
-  return vec3(x, y, z);
+  return placed(instance.row_x, instance.row_y, instance.row_z, p);
 }
 
 SHARED bool is_perspective(IN(CameraFrame) camera) { return camera.footprint.z != 0.0f; }

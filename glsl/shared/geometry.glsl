@@ -7,7 +7,7 @@ layout(std430, binding = BIND_POSITIONS) readonly buffer PositionBlock { float p
 layout(std430, binding = BIND_INDICES) readonly buffer IndexBlock { uint indices[]; };
 
 vec3 vertex_vs(InstanceFrame instance, uint corner) {
-  uint i = indices[corner] * 3u;
+  uint i = (indices[corner] + instance.info.w) * 3u;
   return view_from_object(instance, vec3(positions[i], positions[i + 1u], positions[i + 2u]));
 }
 

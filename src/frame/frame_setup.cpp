@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "base/error.h"
+#include "frame/deform.h"
 
 namespace izb {
 namespace {
@@ -89,9 +90,9 @@ std::vector<shared::InstanceFrame> make_instance_frames(const Camera& camera, co
   for (size_t i = 0; i < frames.size(); ++i) {
     const Instance& instance = scene.instances[list.instances[i]];
     const glm::mat4 rows = glm::mat4(glm::transpose(view_from_world * instance.world_from_object));
-    frames[i] = {
-        rows[0], rows[1], rows[2],
-        glm::uvec4(list.first_triangle[i], scene.meshes[instance.mesh].material, list.first_index[instance.mesh], 0)};
+    frames[i] = {rows[0], rows[1], rows[2],
+                 glm::uvec4(list.first_triangle[i], scene.meshes[instance.mesh].material,
+                            list.first_index[instance.mesh], list.base_vertex[i])};
   }
   return frames;
 }
@@ -147,9 +148,10 @@ std::vector<glm::vec3> flatten(const Scene& scene, const DrawList& list,
   positions.reserve(size_t(list.triangle_count) * 3);
   std::vector<glm::vec3> moved;
   for (size_t i = 0; i < instances.size(); ++i) {
-    const Mesh& mesh = scene.meshes[scene.instances[list.instances[i]].mesh];
-    moved.resize(mesh.positions.size());
-    for (size_t v = 0; v < moved.size(); ++v) moved[v] = shared::view_from_object(instances[i], mesh.positions[v]);
+    const Instance& instance = scene.instances[list.instances[i]];
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    moved = deformed_positions(scene, instance);
+    for (glm::vec3& p : moved) p = shared::view_from_object(instances[i], p);
     for (const uint32_t index : mesh.indices) positions.push_back(moved[index]);
   }
   return positions;

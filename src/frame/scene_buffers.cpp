@@ -11,15 +11,26 @@
 namespace izb {
 namespace {
 
-/// Joins one array of every mesh; a mesh without it gets zeros.
+/// Joins one array of every mesh, straight from where it stands; a mesh without it gets zeros. `deformed`: also for the
+/// instances that deform, as at rest.
 template <typename T>
-gpu::Buffer join(const std::string& label, const Scene& scene, const DrawList& list, std::vector<T> Mesh::*member) {
-  std::vector<T> all(list.vertex_count, T(0.0f));
-  for (size_t m = 0; m < scene.meshes.size(); ++m) {
-    const std::vector<T>& part = scene.meshes[m].*member;
-    std::copy(part.begin(), part.end(), all.begin() + list.first_vertex[m]);
-  }
-  return gpu::Buffer(label, all);
+gpu::Buffer join(const std::string& label, const Scene& scene, const DrawList& list, std::vector<T> Mesh::*member,
+                 bool deformed) {
+  gpu::Buffer all(label, list.vertex_count * sizeof(T));
+  const auto copy = [&](size_t mesh, size_t first_vertex) {
+    const std::vector<T>& part = scene.meshes[mesh].*member;
+    const size_t first_byte = first_vertex * sizeof(T);
+    if (part.empty())
+      all.fill(0, first_byte, scene.meshes[mesh].positions.size() * sizeof(T));
+    else
+      all.update(first_byte, part.size() * sizeof(T), part.data());
+  };
+  for (size_t m = 0; m < scene.meshes.size(); ++m)
+    if (list.first_vertex[m] != DrawList::no_vertex) copy(m, list.first_vertex[m]);
+  for (size_t i = 0; deformed && i < list.instances.size(); ++i)
+    if (const Instance& instance = scene.instances[list.instances[i]]; instance.deforms())
+      copy(instance.mesh, list.base_vertex[i]);
+  return all;
 }
 
 GLint gl_wrap(Wrap wrap) {
@@ -48,14 +59,16 @@ SceneBuffers::SceneBuffers(const Scene& scene, DrawList list, const gpu::Capabil
 }
 
 void SceneBuffers::upload_geometry(const Scene& scene) {
-  positions_ = join("positions", scene, list_, &Mesh::positions);
-  normals_ = join("normals", scene, list_, &Mesh::normals);
-  uvs_ = join("uvs", scene, list_, &Mesh::uvs);
-  std::vector<uint32_t> indices;
-  indices.reserve(list_.index_count);
-  for (size_t m = 0; m < scene.meshes.size(); ++m)
-    for (const uint32_t i : scene.meshes[m].indices) indices.push_back(i + list_.first_vertex[m]);
-  indices_ = gpu::Buffer("indices", indices);
+  positions_ = join("positions", scene, list_, &Mesh::positions, false);
+  normals_ = join("normals", scene, list_, &Mesh::normals, false);
+  uvs_ = join("uvs", scene, list_, &Mesh::uvs, true);
+  deform_ = DeformStage(scene, list_);
+  indices_ = gpu::Buffer("indices", list_.index_count * sizeof(uint32_t));
+  for (size_t m = 0; m < scene.meshes.size(); ++m) {
+    const std::vector<uint32_t>& part = scene.meshes[m].indices;
+    if (!part.empty())
+      indices_.update(list_.first_index[m] * sizeof(uint32_t), part.size() * sizeof(uint32_t), part.data());
+  }
   std::vector<uint32_t> ids(list_.instances.size());
   std::iota(ids.begin(), ids.end(), 0u);
   instance_ids_ = gpu::Buffer("instance ids", ids);
@@ -101,8 +114,9 @@ void SceneBuffers::upload_textures(const Scene& scene) {
   }
 }
 
-void SceneBuffers::update_instances(const std::vector<shared::InstanceFrame>& instances) {
+void SceneBuffers::update(const Scene& scene, const std::vector<shared::InstanceFrame>& instances) {
   instances_.update(0, instances.size() * sizeof(shared::InstanceFrame), instances.data());
+  if (deform_) deform_.render(scene, positions_, normals_);
 }
 
 void SceneBuffers::bind_storage() const {
@@ -136,7 +150,7 @@ void SceneBuffers::draw_casters() const {
 
 size_t SceneBuffers::bytes() const {
   size_t sum = positions_.bytes() + normals_.bytes() + uvs_.bytes() + indices_.bytes() + instance_ids_.bytes() +
-               commands_.bytes() + instances_.bytes() + materials_.bytes() + white_.bytes();
+               commands_.bytes() + instances_.bytes() + materials_.bytes() + white_.bytes() + deform_.bytes();
   for (const gpu::Texture& t : textures_) sum += t.bytes();
   return sum;
 }
@@ -155,6 +169,7 @@ gpu::Plan SceneBuffers::memory_needed(const Scene& scene, const DrawList& list) 
   buffer("draw commands", Kind::other_buffer, list.commands.size(), sizeof(DrawCommand));
   buffer("instances", Kind::storage_buffer, list.instances.size(), sizeof(shared::InstanceFrame));
   buffer("materials", Kind::storage_buffer, scene.materials.size(), sizeof(shared::MaterialFrame));
+  for (gpu::Planned& part : DeformStage::memory_needed(scene, list)) plan.push_back(std::move(part));
   plan.push_back(gpu::planned_texture("white", GL_SRGB8_ALPHA8, 1, 1, {}));
   for (const Texture& t : scene.textures)
     plan.push_back(

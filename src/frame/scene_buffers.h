@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A scene on the GPU: joined vertex and index buffers, textures, and the draw calls over them.
 #pragma once
+#include "frame/deform.h"
 #include "frame/frame_setup.h"
 #include "gpu/capabilities.h"
 #include "gpu/memory.h"
@@ -14,7 +15,12 @@ class SceneBuffers {
   SceneBuffers(const Scene& scene, DrawList list, const gpu::Capabilities& capabilities);
 
   const DrawList& draw_list() const { return list_; }
-  void update_instances(const std::vector<shared::InstanceFrame>& instances);
+  /// The scene as it is posed now: placements, and vertices that deform.
+  void update(const Scene& scene, const std::vector<shared::InstanceFrame>& instances);
+  /// Whether update() has vertices to deform.
+  bool deforms() const { return static_cast<bool>(deform_); }
+  const gpu::Buffer& positions() const { return positions_; }
+  const gpu::Buffer& normals() const { return normals_; }
 
   /// Draws everything once, base-colour textures bound group by group, for the G-buffer.
   void draw_with_textures() const;
@@ -33,6 +39,7 @@ class SceneBuffers {
 
   DrawList list_;
   gpu::Buffer positions_, normals_, uvs_, indices_, instance_ids_, commands_, instances_, materials_;
+  DeformStage deform_;
   gpu::VertexArray vertex_array_;
   gpu::Texture white_;
   std::vector<gpu::Texture> textures_;

@@ -10,6 +10,9 @@ enum class Stage { gbuffer, bounds, build, zcull, visibility, shade };
 
 inline constexpr std::array<const char*, 6> stage_names{"gbuffer", "bounds", "build", "zcull", "visibility", "shade"};
 
+/// Before them, and none of the paper's: the vertices of meshes that deform. Absent where there are none.
+inline constexpr const char* deform_name = "deform";
+
 inline constexpr const char* name(Stage stage) {
   return stage_names[static_cast<size_t>(stage)];
 }

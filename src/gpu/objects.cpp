@@ -66,6 +66,12 @@ void Buffer::fill(uint32_t value) {
   glClearNamedBufferData(name_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
 }
 
+void Buffer::fill(uint32_t value, size_t offset_bytes, size_t size_bytes) {
+  if (size_bytes > 0)
+    glClearNamedBufferSubData(name_, GL_R32UI, static_cast<GLintptr>(offset_bytes), static_cast<GLsizeiptr>(size_bytes),
+                              GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
+}
+
 void Buffer::read_bytes(size_t offset_bytes, size_t size_bytes, void* data) const {
   if (size_bytes > 0)
     glGetNamedBufferSubData(name_, static_cast<GLintptr>(offset_bytes), static_cast<GLsizeiptr>(size_bytes), data);

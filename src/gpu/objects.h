@@ -70,6 +70,7 @@ class Buffer : public Object<BufferTraits> {
 
   void update(size_t offset_bytes, size_t size_bytes, const void* data);
   void fill(uint32_t value);
+  void fill(uint32_t value, size_t offset_bytes, size_t size_bytes);
   template <typename T>
   std::vector<T> read(size_t count) const {
     std::vector<T> data(count);

@@ -2,17 +2,10 @@
 #pragma once
 #include <filesystem>
 #include <optional>
-#include <string>
 
-#include "scene/scene.h"
+#include "scene/pose.h"
 
 namespace izb {
-
-/// A moment of one of a file's animations.
-struct AnimationMoment {
-  std::string animation;  ///< its name or index; empty: the file's first
-  double time_s = 0.0;
-};
 
 /// Loads a glTF 2.0 file (.gltf or .glb), posed as it is at that moment; without one skinned and morphed meshes stand
 /// in bind pose. Throws izb::Error with one sentence that names the file and the cause; never returns a scene with an

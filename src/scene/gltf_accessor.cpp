@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/gltf_accessor.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -58,37 +59,36 @@ To convert(From value, bool normalized) {
   }
 }
 
-/// Converts elements of `components` values into a packed array. `position` gives each element's place in it.
-template <typename From, typename To, typename Position>
-void copy(const Elements& from, size_t components, bool normalized, To* to, const Position& position) {
+/// Converts elements of `components` values into a packed array.
+template <typename From, typename To>
+void copy(const Elements& from, size_t components, bool normalized, To* to) {
   for (size_t i = 0; i < from.count; ++i) {
     const unsigned char* p = from.data + i * from.stride;
-    To* out = to + position(i) * components;
+    To* out = to + i * components;
     for (size_t c = 0; c < components; ++c, p += sizeof(From)) out[c] = convert<From, To>(load<From>(p), normalized);
   }
 }
 
-template <typename To, typename Position>
-void copy_any(const Elements& from, int component_type, size_t components, bool normalized, To* to,
-              const Position& position) {
+template <typename To>
+void copy_any(const Elements& from, int component_type, size_t components, bool normalized, To* to) {
   switch (component_type) {
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return copy<uint8_t>(from, components, normalized, to, position);
+      return copy<uint8_t>(from, components, normalized, to);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return copy<uint16_t>(from, components, normalized, to, position);
+      return copy<uint16_t>(from, components, normalized, to);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-      return copy<uint32_t>(from, components, normalized, to, position);
+      return copy<uint32_t>(from, components, normalized, to);
     default:
       break;
   }
   if constexpr (std::is_floating_point_v<To>) {
     switch (component_type) {
       case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return copy<int8_t>(from, components, normalized, to, position);
+        return copy<int8_t>(from, components, normalized, to);
       case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return copy<int16_t>(from, components, normalized, to, position);
+        return copy<int16_t>(from, components, normalized, to);
       default:
-        return copy<float>(from, components, normalized, to, position);
+        return copy<float>(from, components, normalized, to);
     }
   }
 }
@@ -105,7 +105,7 @@ std::vector<uint32_t> sparse_positions(const tinygltf::Model& model, int index) 
   const Elements from = locate(model, index, indices.bufferView, static_cast<size_t>(indices.byteOffset),
                                static_cast<size_t>(accessor.sparse.count), size, 0);
   std::vector<uint32_t> positions(from.count);
-  copy_any(from, indices.componentType, 1, false, positions.data(), [](size_t i) { return i; });
+  copy_any(from, indices.componentType, 1, false, positions.data());
   for (const uint32_t position : positions)
     if (position >= accessor.count)
       fail("a sparse index of accessors[{}] is {}, but it has {} elements", index, position, accessor.count);
@@ -114,8 +114,10 @@ std::vector<uint32_t> sparse_positions(const tinygltf::Model& model, int index) 
 
 /// `Element` is a packed array of `To`; `type` the glTF type that it stands for.
 template <typename Element, typename To>
-std::vector<Element> read(const tinygltf::Model& model, int index, int type, const char* type_name) {
+std::vector<Element> read(const tinygltf::Model& model, int index, int type, const char* type_name,
+                          const ElementRange& range = {}) {
   const tinygltf::Accessor& accessor = accessor_at(model, index);
+  const size_t first = std::min(range.first, accessor.count), count = std::min(range.count, accessor.count - first);
   if (accessor.type != type) fail("accessors[{}] is not of type {}", index, type_name);
   const bool is_unsigned = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
                            accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
@@ -127,23 +129,24 @@ std::vector<Element> read(const tinygltf::Model& model, int index, int type, con
   const size_t element_size = component_size * components;
 
   std::vector<Element> result;
-  const auto in_order = [](size_t i) { return i; };
   if (accessor.bufferView >= 0) {
     const size_t stride = model.bufferViews[static_cast<size_t>(accessor.bufferView)].byteStride;
-    const Elements from =
+    Elements from =
         locate(model, index, accessor.bufferView, accessor.byteOffset, accessor.count, element_size, stride);
-    result.resize(accessor.count);
+    from.data += first * from.stride;
+    from.count = count;
+    result.resize(count);
     To* to = reinterpret_cast<To*>(result.data());
     const bool same_type = accessor.componentType == (std::is_integral_v<To> ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT
                                                                              : TINYGLTF_COMPONENT_TYPE_FLOAT);
     if (same_type && from.stride == sizeof(Element) && from.count > 0)
       std::memcpy(to, from.data, from.count * sizeof(Element));
     else
-      copy_any(from, accessor.componentType, components, accessor.normalized, to, in_order);
+      copy_any(from, accessor.componentType, components, accessor.normalized, to);
   } else {
     if (accessor.count > max_unbacked_count)
       fail("accessors[{}] claims {} elements without a buffer view", index, accessor.count);
-    result.resize(accessor.count, Element(To(0)));
+    result.resize(count, Element(To(0)));
   }
 
   if (accessor.sparse.isSparse && accessor.sparse.count > 0) {
@@ -151,8 +154,10 @@ std::vector<Element> read(const tinygltf::Model& model, int index, int type, con
     const auto& values = accessor.sparse.values;
     const Elements from = locate(model, index, values.bufferView, static_cast<size_t>(values.byteOffset),
                                  positions.size(), element_size, 0);
-    copy_any(from, accessor.componentType, components, accessor.normalized, reinterpret_cast<To*>(result.data()),
-             [&](size_t i) { return positions[i]; });
+    std::vector<Element> replaced(from.count);
+    copy_any(from, accessor.componentType, components, accessor.normalized, reinterpret_cast<To*>(replaced.data()));
+    for (size_t i = 0; i < replaced.size(); ++i)
+      if (positions[i] >= first && positions[i] - first < count) result[positions[i] - first] = replaced[i];
   }
   return result;
 }
@@ -167,16 +172,16 @@ std::vector<float> read_floats(const tinygltf::Model& model, int accessor) {
   return read<float, float>(model, accessor, TINYGLTF_TYPE_SCALAR, "SCALAR");
 }
 
-std::vector<glm::vec2> read_vec2(const tinygltf::Model& model, int accessor) {
-  return read<glm::vec2, float>(model, accessor, TINYGLTF_TYPE_VEC2, "VEC2");
+std::vector<glm::vec2> read_vec2(const tinygltf::Model& model, int accessor, const ElementRange& range) {
+  return read<glm::vec2, float>(model, accessor, TINYGLTF_TYPE_VEC2, "VEC2", range);
 }
 
-std::vector<glm::vec3> read_vec3(const tinygltf::Model& model, int accessor) {
-  return read<glm::vec3, float>(model, accessor, TINYGLTF_TYPE_VEC3, "VEC3");
+std::vector<glm::vec3> read_vec3(const tinygltf::Model& model, int accessor, const ElementRange& range) {
+  return read<glm::vec3, float>(model, accessor, TINYGLTF_TYPE_VEC3, "VEC3", range);
 }
 
-std::vector<glm::vec4> read_vec4(const tinygltf::Model& model, int accessor) {
-  return read<glm::vec4, float>(model, accessor, TINYGLTF_TYPE_VEC4, "VEC4");
+std::vector<glm::vec4> read_vec4(const tinygltf::Model& model, int accessor, const ElementRange& range) {
+  return read<glm::vec4, float>(model, accessor, TINYGLTF_TYPE_VEC4, "VEC4", range);
 }
 
 std::vector<glm::mat4> read_mat4(const tinygltf::Model& model, int accessor) {
@@ -189,8 +194,8 @@ std::vector<uint32_t> read_indices(const tinygltf::Model& model, int accessor) {
   return read<uint32_t, uint32_t>(model, accessor, TINYGLTF_TYPE_SCALAR, "SCALAR");
 }
 
-std::vector<glm::uvec4> read_uvec4(const tinygltf::Model& model, int accessor) {
-  return read<glm::uvec4, uint32_t>(model, accessor, TINYGLTF_TYPE_VEC4, "VEC4");
+std::vector<glm::uvec4> read_uvec4(const tinygltf::Model& model, int accessor, const ElementRange& range) {
+  return read<glm::uvec4, uint32_t>(model, accessor, TINYGLTF_TYPE_VEC4, "VEC4", range);
 }
 
 }  // namespace izb

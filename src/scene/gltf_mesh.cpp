@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_deform.h"
 #include "scene/gltf_material.h"
 
 namespace izb {
@@ -64,56 +65,6 @@ std::vector<uint32_t> load_indices(const tinygltf::Model& model, const tinygltf:
   return to_triangle_list(std::move(order), primitive.mode, tally);
 }
 
-/// base += sum of weight * target (glTF 2.0, section 3.7.2.2).
-void add_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-                       std::span<const double> weights, const std::string& name, std::vector<glm::vec3>& base) {
-  for (size_t t = 0; t < std::min(weights.size(), primitive.targets.size()); ++t) {
-    const auto it = primitive.targets[t].find(name);
-    if (it == primitive.targets[t].end()) continue;
-    check_count(model, it->second, base.size(), fmt::format("{} of morph target {}", name, t));
-    if (weights[t] == 0.0) continue;
-    const std::vector<glm::vec3> target = read_vec3(model, it->second);
-    for (size_t i = 0; i < base.size(); ++i) base[i] += static_cast<float>(weights[t]) * target[i];
-  }
-}
-
-/// Linear blend skinning (glTF 2.0, section 3.7.3.3), summed over all JOINTS_n sets.
-void apply_skin(const tinygltf::Model& model, const tinygltf::Primitive& primitive, std::span<const glm::dmat4> joints,
-                Mesh& mesh) {
-  std::vector<glm::dmat4> sums(mesh.positions.size(), glm::dmat4(0.0));
-  std::vector<double> weight_sums(mesh.positions.size(), 0.0);
-  for (int set = 0;; ++set) {
-    const int joints_accessor = attribute(primitive, fmt::format("JOINTS_{}", set));
-    const int weights_accessor = attribute(primitive, fmt::format("WEIGHTS_{}", set));
-    if (joints_accessor < 0 || weights_accessor < 0) break;
-    check_count(model, joints_accessor, sums.size(), fmt::format("JOINTS_{}", set));
-    check_count(model, weights_accessor, sums.size(), fmt::format("WEIGHTS_{}", set));
-    const std::vector<glm::uvec4> ids = read_uvec4(model, joints_accessor);
-    const std::vector<glm::vec4> weights = read_vec4(model, weights_accessor);
-    for (size_t i = 0; i < sums.size(); ++i)
-      for (int k = 0; k < 4; ++k) {
-        const double weight = weights[i][k];
-        if (!std::isfinite(weight)) fail("the joint weight of vertex {} is not finite", i);
-        if (weight == 0.0) continue;
-        if (ids[i][k] >= joints.size())
-          fail("joint {} of vertex {} is out of range ({} joints)", ids[i][k], i, joints.size());
-        sums[i] += weight * joints[ids[i][k]];
-        weight_sums[i] += weight;
-      }
-  }
-  for (size_t i = 0; i < sums.size(); ++i) {
-    // A vertex without weights follows the first joint, so that it stays near the body.
-    const glm::dmat4 skin = weight_sums[i] > 0.0 ? sums[i] / weight_sums[i] : joints.front();
-    mesh.positions[i] = glm::vec3(skin * glm::dvec4(mesh.positions[i], 1.0));
-    if (mesh.normals.empty()) continue;
-    // The cofactor matrix: the inverse transpose without a division, so that flat joints do no harm.
-    const glm::dvec3 x(skin[0]), y(skin[1]), z(skin[2]);
-    const glm::dvec3 n(mesh.normals[i]);
-    const glm::dvec3 turned = glm::cross(y, z) * n.x + glm::cross(z, x) * n.y + glm::cross(x, y) * n.z;
-    mesh.normals[i] = glm::vec3(turned * (glm::determinant(glm::dmat3(skin)) < 0.0 ? -1.0 : 1.0));
-  }
-}
-
 /// Makes every normal unit length. Where that is impossible, the area-weighted normal of the vertex's
 /// triangles takes its place.
 void normalize_normals(Mesh& mesh, MeshTally& tally) {
@@ -144,35 +95,67 @@ void normalize_normals(Mesh& mesh, MeshTally& tally) {
   }
 }
 
+template <typename T>
+std::vector<T> chosen(const std::vector<T>& all, const std::vector<uint32_t>& kept, size_t per_vertex = 1) {
+  std::vector<T> out;
+  if (all.empty()) return out;
+  out.reserve(kept.size() * per_vertex);
+  for (const uint32_t i : kept)
+    for (size_t k = 0; k < per_vertex; ++k) out.push_back(all[i * per_vertex + k]);
+  return out;
+}
+
 /// Files often share one large vertex array between many primitives: each keeps only the vertices that it
 /// uses.
 void drop_unused_vertices(Mesh& mesh) {
   if (mesh.positions.size() <= mesh.indices.size()) return;
   constexpr uint32_t unused = 0xffffffffu;
-  std::vector<uint32_t> new_index(mesh.positions.size(), unused);
-  Mesh kept;
+  std::vector<uint32_t> new_index(mesh.positions.size(), unused), kept;
   for (uint32_t& index : mesh.indices) {
     uint32_t& target = new_index[index];
     if (target == unused) {
-      target = static_cast<uint32_t>(kept.positions.size());
-      kept.positions.push_back(mesh.positions[index]);
-      if (!mesh.normals.empty()) kept.normals.push_back(mesh.normals[index]);
-      if (!mesh.uvs.empty()) kept.uvs.push_back(mesh.uvs[index]);
+      target = static_cast<uint32_t>(kept.size());
+      kept.push_back(index);
     }
     index = target;
   }
-  mesh.positions = std::move(kept.positions);
-  mesh.normals = std::move(kept.normals);
-  mesh.uvs = std::move(kept.uvs);
+  mesh.positions = chosen(mesh.positions, kept);
+  mesh.normals = chosen(mesh.normals, kept);
+  mesh.uvs = chosen(mesh.uvs, kept);
+  mesh.joints = chosen(mesh.joints, kept, mesh.influences);
+  mesh.weights = chosen(mesh.weights, kept, mesh.influences);
+  for (MorphTarget& target : mesh.targets) {
+    target.positions = chosen(target.positions, kept);
+    target.normals = chosen(target.normals, kept);
+  }
 }
 
-void check_positions(const Mesh& mesh) {
+void check_positions(const Mesh& mesh, const ElementRange& range) {
   for (size_t i = 0; i < mesh.positions.size(); ++i)
-    if (!finite(mesh.positions[i])) fail("the position of vertex {} is not finite", i);
+    if (!finite(mesh.positions[i])) fail("the position of vertex {} is not finite", range.first + i);
 }
 
-std::optional<Mesh> load_triangles(const tinygltf::Model& model, const PrimitiveSource& source,
-                                   const tinygltf::Primitive& primitive, MeshTally& tally) {
+/// The vertices between the lowest and the highest index: of a large array that many primitives share, only a part is
+/// read. The indices count from its first one afterwards.
+ElementRange take_range(std::vector<uint32_t>& indices) {
+  if (indices.empty()) return {0, 0};
+  const auto [low, high] = std::minmax_element(indices.begin(), indices.end());
+  const ElementRange range{*low, size_t(*high) - *low + 1};
+  if (range.first > 0)
+    for (uint32_t& index : indices) index -= static_cast<uint32_t>(range.first);
+  return range;
+}
+
+/// All counts agree, so that one range fits all.
+void check_counts(const tinygltf::Model& model, const tinygltf::Primitive& primitive, size_t vertex_count) {
+  for (const auto& [name, accessor] : primitive.attributes) check_count(model, accessor, vertex_count, name);
+  for (size_t t = 0; t < primitive.targets.size(); ++t)
+    for (const auto& [name, accessor] : primitive.targets[t])
+      check_count(model, accessor, vertex_count, fmt::format("{} of morph target {}", name, t));
+}
+
+std::optional<Mesh> load_triangles(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                                   MeshTally& tally) {
   const int positions = attribute(primitive, "POSITION");
   if (positions < 0) {
     ++tally.without_positions;
@@ -180,29 +163,22 @@ std::optional<Mesh> load_triangles(const tinygltf::Model& model, const Primitive
   }
   const size_t vertex_count = accessor_count(model, positions);
   if (vertex_count > 0xffffffffu) fail("it has more than 2^32 vertices");
-  for (const auto& [name, accessor] : primitive.attributes) check_count(model, accessor, vertex_count, name);
+  check_counts(model, primitive, vertex_count);
 
   Mesh mesh;
-  mesh.positions = read_vec3(model, positions);
   mesh.indices = load_indices(model, primitive, vertex_count, tally);
-  if (const int normals = attribute(primitive, "NORMAL"); normals >= 0) mesh.normals = read_vec3(model, normals);
+  const ElementRange range = take_range(mesh.indices);
+  mesh.positions = read_vec3(model, positions, range);
+  check_positions(mesh, range);
+  if (const int normals = attribute(primitive, "NORMAL"); normals >= 0) mesh.normals = read_vec3(model, normals, range);
   if (const int set = base_color_uv_set(model, primitive.material); set >= 0)
     if (const int uvs = attribute(primitive, fmt::format("TEXCOORD_{}", set)); uvs >= 0) {
-      mesh.uvs = read_vec2(model, uvs);
+      mesh.uvs = read_vec2(model, uvs, range);
       for (glm::vec2& uv : mesh.uvs)
         if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) uv = glm::vec2(0.0f);
     }
-
-  if (!primitive.targets.empty()) {
-    ++tally.morphed_primitives;
-    add_morph_targets(model, primitive, source.morph_weights, "POSITION", mesh.positions);
-    if (!mesh.normals.empty()) add_morph_targets(model, primitive, source.morph_weights, "NORMAL", mesh.normals);
-  }
-  if (!source.world_from_bind_joints.empty()) {
-    ++tally.skinned_primitives;
-    apply_skin(model, primitive, source.world_from_bind_joints, mesh);
-  }
-  check_positions(mesh);
+  load_morph_targets(model, primitive, range, mesh);
+  load_influences(model, primitive, range, mesh);
   if (mesh.indices.empty()) return {};
   tally.colored_primitives += attribute(primitive, "COLOR_0") >= 0;
   normalize_normals(mesh, tally);
@@ -212,9 +188,10 @@ std::optional<Mesh> load_triangles(const tinygltf::Model& model, const Primitive
 
 }  // namespace
 
-std::optional<Mesh> load_primitive(const tinygltf::Model& model, const PrimitiveSource& source, MeshTally& tally) {
-  const tinygltf::Mesh& gltf_mesh = model.meshes[static_cast<size_t>(source.mesh)];
-  const tinygltf::Primitive& primitive = gltf_mesh.primitives[static_cast<size_t>(source.primitive)];
+std::optional<Mesh> load_primitive(const tinygltf::Model& model, int mesh_index, int primitive_index,
+                                   MeshTally& tally) {
+  const tinygltf::Mesh& gltf_mesh = model.meshes[static_cast<size_t>(mesh_index)];
+  const tinygltf::Primitive& primitive = gltf_mesh.primitives[static_cast<size_t>(primitive_index)];
   const std::string name = gltf_mesh.name.empty() ? "" : fmt::format(" ('{}')", gltf_mesh.name);
   switch (primitive.mode) {
     case TINYGLTF_MODE_POINTS:
@@ -230,11 +207,10 @@ std::optional<Mesh> load_primitive(const tinygltf::Model& model, const Primitive
     case TINYGLTF_MODE_TRIANGLE_FAN:
       break;
     default:
-      fail("mesh {}{}, primitive {}: there is no primitive mode {}", source.mesh, name, source.primitive,
-           primitive.mode);
+      fail("mesh {}{}, primitive {}: there is no primitive mode {}", mesh_index, name, primitive_index, primitive.mode);
   }
   try {
-    std::optional<Mesh> mesh = load_triangles(model, source, primitive, tally);
+    std::optional<Mesh> mesh = load_triangles(model, primitive, tally);
     if (mesh) {
       mesh->name = gltf_mesh.name;
       mesh->material =
@@ -242,7 +218,7 @@ std::optional<Mesh> load_primitive(const tinygltf::Model& model, const Primitive
     }
     return mesh;
   } catch (const Error& e) {
-    fail("mesh {}{}, primitive {}: {}", source.mesh, name, source.primitive, e.what());
+    fail("mesh {}{}, primitive {}: {}", mesh_index, name, primitive_index, e.what());
   }
 }
 

@@ -2,9 +2,7 @@
 #pragma once
 #include <tiny_gltf.h>
 
-#include <glm/glm.hpp>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -12,7 +10,7 @@
 
 namespace izb {
 
-/// What the meshes of a file hold that a Mesh does not, counted while they load.
+/// What the meshes of a file hold that is not shown, or not as one may expect, counted while they load.
 struct MeshTally {
   size_t point_primitives = 0, line_primitives = 0, without_positions = 0;
   size_t trailing_indices = 0;    ///< beyond the last whole triangle
@@ -24,16 +22,9 @@ struct MeshTally {
   void describe(std::vector<std::string>& ignored, bool at_rest) const;
 };
 
-/// Where a primitive stands in the file, and how it is posed.
-struct PrimitiveSource {
-  int mesh = 0, primitive = 0;
-  std::span<const double> morph_weights;               ///< of the node or the mesh; may be shorter than the targets
-  std::span<const glm::dmat4> world_from_bind_joints;  ///< one a joint of the skin; empty: not skinned
-};
-
-/// One primitive as an indexed triangle list: strips and fans unrolled, morph targets and (with joints) the
-/// skin applied, so that a skinned one comes out in world space. Empty if it holds no triangle. Throws
-/// izb::Error with the cause alone: index out of range, position not finite, attributes of different counts.
-std::optional<Mesh> load_primitive(const tinygltf::Model& model, const PrimitiveSource& source, MeshTally& tally);
+/// One primitive at rest as an indexed triangle list: strips and fans unrolled, with what morph targets and joints do
+/// to it. Empty if it holds no triangle. Throws izb::Error with the cause alone: index out of range, position not
+/// finite, attributes of different counts.
+std::optional<Mesh> load_primitive(const tinygltf::Model& model, int mesh, int primitive, MeshTally& tally);
 
 }  // namespace izb

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
 
 #include "base/error.h"
+#include "scene/pose.h"
 
 namespace izb {
 namespace {
@@ -17,29 +17,34 @@ bool finite(const glm::dmat4& m) {
   return true;
 }
 
-glm::dmat4 parent_from_node(const tinygltf::Node& node, size_t index) {
-  glm::dmat4 m(1.0);
-  if (!node.matrix.empty()) {
+Node load_node(const tinygltf::Model& model, size_t index) {
+  const tinygltf::Node& source = model.nodes[index];
+  Node node;
+  node.name = source.name.empty() ? fmt::format("node {}", index) : source.name;
+  if (!source.matrix.empty()) {
+    glm::dmat4& m = node.matrix.emplace();
     for (int c = 0; c < 4; ++c)
-      for (int r = 0; r < 4; ++r) m[c][r] = node.matrix[static_cast<size_t>(4 * c + r)];
+      for (int r = 0; r < 4; ++r) m[c][r] = source.matrix[static_cast<size_t>(4 * c + r)];
     constexpr double tolerance = 1e-5;
     for (int c = 0; c < 4; ++c) {
       const double expected = c == 3 ? 1.0 : 0.0;
       if (std::abs(m[c][3] - expected) > tolerance) fail("the matrix of nodes[{}] is not affine", index);
       m[c][3] = expected;
     }
-    return m;
   }
-  if (!node.scale.empty())
-    for (int c = 0; c < 3; ++c) m[c][c] = node.scale[static_cast<size_t>(c)];
-  if (!node.rotation.empty()) {
-    const glm::dquat q(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+  if (!source.scale.empty()) node.scale = {source.scale[0], source.scale[1], source.scale[2]};
+  if (!source.rotation.empty()) {
+    const glm::dquat q(source.rotation[3], source.rotation[0], source.rotation[1], source.rotation[2]);
     const double length = glm::length(q);
     if (!(length > 0.0)) fail("the rotation of nodes[{}] has no length", index);
-    m = glm::mat4_cast(q / length) * m;
+    node.rotation = q / length;
   }
-  if (!node.translation.empty()) m[3] = glm::dvec4(node.translation[0], node.translation[1], node.translation[2], 1.0);
-  return m;
+  if (!source.translation.empty())
+    node.translation = {source.translation[0], source.translation[1], source.translation[2]};
+  node.morph_weights = source.weights;
+  if (source.mesh >= 0 && source.weights.empty())
+    node.morph_weights = model.meshes[static_cast<size_t>(source.mesh)].weights;
+  return node;
 }
 
 std::vector<int> find_parents(const tinygltf::Model& model) {
@@ -76,29 +81,26 @@ std::vector<int> collect(const tinygltf::Model& model, const std::vector<int>& r
 
 }  // namespace
 
-NodeHierarchy flatten_nodes(const tinygltf::Model& model) {
+NodeHierarchy load_nodes(const tinygltf::Model& model, Scene& scene) {
   const std::vector<int> parents = find_parents(model);
   std::vector<int> all_roots;
   for (size_t i = 0; i < parents.size(); ++i)
     if (parents[i] < 0) all_roots.push_back(static_cast<int>(i));
 
   NodeHierarchy result;
-  result.world_from_node.resize(model.nodes.size());
+  result.scene_index.assign(model.nodes.size(), -1);
   const std::vector<int> order = collect(model, all_roots);
-  if (order.size() < model.nodes.size()) {
-    std::vector<bool> reached(model.nodes.size(), false);
-    for (const int i : order) reached[static_cast<size_t>(i)] = true;
-    for (size_t i = 0; i < reached.size(); ++i)
-      if (!reached[i]) fail("nodes[{}] is part of, or below, a cycle of nodes", i);
-  }
   for (const int i : order) {
     const auto node = static_cast<size_t>(i);
-    const glm::dmat4 local = parent_from_node(model.nodes[node], node);
-    const int parent = parents[node];
-    glm::dmat4& world = result.world_from_node[node];
-    world = parent < 0 ? local : result.world_from_node[static_cast<size_t>(parent)] * local;
-    if (!finite(world)) fail("the transform of nodes[{}] is not finite", i);
+    result.scene_index[node] = static_cast<int>(scene.nodes.size());
+    scene.nodes.push_back(load_node(model, node));
+    if (parents[node] >= 0) scene.nodes.back().parent = result.scene_index[static_cast<size_t>(parents[node])];
   }
+  for (size_t i = 0; i < model.nodes.size(); ++i)
+    if (result.scene_index[i] < 0) fail("nodes[{}] is part of, or below, a cycle of nodes", i);
+  const std::vector<glm::dmat4> world_from_node = world_from_nodes(scene.nodes);
+  for (size_t k = 0; k < order.size(); ++k)
+    if (!finite(world_from_node[k])) fail("the transform of nodes[{}] is not finite", order[k]);
   result.in_scene = collect(model, scene_roots(model, all_roots));
   return result;
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/pose.h"
+
 namespace izb {
 namespace {
 
@@ -13,22 +15,6 @@ std::string object_name(const std::string& node, const std::string& object, cons
   if (!node.empty()) return node;
   if (!object.empty()) return object;
   return fmt::format("{} {}", kind, index);
-}
-
-/// The transform without scale or shear: -z keeps its direction, +y stays in the plane of both. False if the
-/// axes leave it undefined.
-bool make_rigid(const glm::dmat4& m, glm::dmat4& rigid) {
-  const double z_length = glm::length(glm::dvec3(m[2]));
-  if (!(z_length > 0.0)) return false;
-  const glm::dvec3 z = glm::dvec3(m[2]) / z_length;
-  const glm::dvec3 x = glm::cross(glm::dvec3(m[1]), z);
-  const double x_length = glm::length(x);
-  if (!(x_length > 1e-12 * glm::length(glm::dvec3(m[1])))) return false;
-  rigid[0] = glm::dvec4(x / x_length, 0.0);
-  rigid[1] = glm::dvec4(glm::cross(z, x / x_length), 0.0);
-  rigid[2] = glm::dvec4(z, 0.0);
-  rigid[3] = m[3];
-  return true;
 }
 
 bool set_projection(const tinygltf::Camera& source, Camera& camera) {
@@ -67,14 +53,15 @@ bool set_type(const tinygltf::Light& source, Light& light) {
 }  // namespace
 
 void load_cameras(const tinygltf::Model& model, const NodeHierarchy& nodes, Scene& scene) {
+  const std::vector<glm::dmat4> world_from_node = world_from_nodes(scene.nodes);
   for (const int i : nodes.in_scene) {
     const tinygltf::Node& node = model.nodes[static_cast<size_t>(i)];
     if (node.camera < 0) continue;
     const tinygltf::Camera& source = model.cameras[static_cast<size_t>(node.camera)];
     Camera camera;
     camera.name = object_name(node.name, source.name, "camera", scene.cameras.size());
-    if (set_projection(source, camera) &&
-        make_rigid(nodes.world_from_node[static_cast<size_t>(i)], camera.world_from_view))
+    camera.node = nodes.scene_index[static_cast<size_t>(i)];
+    if (set_projection(source, camera) && rigid(world_from_node[static_cast<size_t>(camera.node)]))
       scene.cameras.push_back(std::move(camera));
     else
       scene.ignored.push_back(
@@ -83,24 +70,23 @@ void load_cameras(const tinygltf::Model& model, const NodeHierarchy& nodes, Scen
 }
 
 void load_lights(const tinygltf::Model& model, const NodeHierarchy& nodes, Scene& scene) {
+  const std::vector<glm::dmat4> world_from_node = world_from_nodes(scene.nodes);
   for (const int i : nodes.in_scene) {
     const tinygltf::Node& node = model.nodes[static_cast<size_t>(i)];
     const auto extension = node.extensions.find("KHR_lights_punctual");
     if (extension == node.extensions.end()) continue;
     const auto index = static_cast<size_t>(extension->second.Get("light").GetNumberAsInt());
     const tinygltf::Light& source = model.lights[index];
-    const glm::dmat4& world = nodes.world_from_node[static_cast<size_t>(i)];
     Light light;
     light.name = object_name(node.name, source.name, "light", scene.lights.size());
-    const double z_length = glm::length(glm::dvec3(world[2]));
+    light.node = nodes.scene_index[static_cast<size_t>(i)];
+    const double z_length = glm::length(glm::dvec3(world_from_node[static_cast<size_t>(light.node)][2]));
     if (!set_type(source, light) || (light.type != LightType::point && !(z_length > 0.0))) {
       scene.ignored.push_back(
           fmt::format("light '{}' of type '{}' is left out: its type, its cone or its transform is not usable",
                       light.name, source.type));
       continue;
     }
-    light.position_ws = glm::dvec3(world[3]);
-    if (z_length > 0.0) light.direction_ws = -glm::dvec3(world[2]) / z_length;
     for (int c = 0; c < 3 && !source.color.empty(); ++c)
       light.color[c] = static_cast<float>(source.color[static_cast<size_t>(c)]);
     light.intensity = static_cast<float>(source.intensity);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/view.h"
 
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <glm/gtc/constants.hpp>
@@ -9,26 +8,19 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "scene/find.h"
+#include "scene/pose.h"
 
 namespace izb {
 namespace {
 
 using nlohmann::json;
 
-/// The object called `name`, else the one at that index.
 template <typename T>
-const T& find_by_name_or_index(const std::vector<T>& objects, const std::string& name, const char* kind,
-                               const std::string& scene) {
-  for (const T& object : objects)
-    if (object.name == name) return object;
-  size_t index = 0;
-  const char* end = name.data() + name.size();
-  const auto [rest, error] = std::from_chars(name.data(), end, index);
-  if (error == std::errc() && rest == end && index < objects.size()) return objects[index];
-  std::string names;
-  for (size_t i = 0; i < objects.size(); ++i) names += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, objects[i].name);
-  if (names.empty()) fail("the scene '{}' has no {} '{}': it has none at all", scene, kind, name);
-  fail("the scene '{}' has no {} '{}'; there are {}", scene, kind, name, names);
+const T& found(const std::vector<T>& objects, const std::string& name, const char* kind, const std::string& scene) {
+  if (const T* const object = find_by_name_or_index(objects, name)) return *object;
+  if (objects.empty()) fail("the scene '{}' has no {} '{}': it has none at all", scene, kind, name);
+  fail("the scene '{}' has no {} '{}'; there are {}", scene, kind, name, names_of(objects));
 }
 
 /// `count` finite numbers of an entry of the views file.
@@ -51,8 +43,7 @@ Vector numbers(const json& entry, const char* key, const std::string& where) {
 Bounds world_bounds(const Scene& scene) {
   Bounds bounds;
   for (const Instance& instance : scene.instances)
-    for (const glm::vec3& p : scene.meshes[instance.mesh].positions)
-      bounds.add(glm::dvec3(instance.world_from_object * glm::dvec4(p, 1.0)));
+    for (const glm::dvec3& p : posed_positions_ws(scene, instance)) bounds.add(p);
   return bounds;
 }
 
@@ -106,11 +97,11 @@ Light sun(double azimuth_deg, double elevation_deg) {
 }
 
 const Camera& find_camera(const Scene& scene, const std::string& name_or_index) {
-  return find_by_name_or_index(scene.cameras, name_or_index, "camera", scene.name);
+  return found(scene.cameras, name_or_index, "camera", scene.name);
 }
 
 const Light& find_light(const Scene& scene, const std::string& name_or_index) {
-  return find_by_name_or_index(scene.lights, name_or_index, "light", scene.name);
+  return found(scene.lights, name_or_index, "light", scene.name);
 }
 
 Viewpoint read_viewpoint(const std::filesystem::path& views_file, const std::string& name) {

@@ -96,7 +96,7 @@ void Renderer::render(const Camera& camera, const std::vector<Light>& lights, gp
     inputs_[i].light = make_light_frame(camera, common_.camera, lights[i], technique_->grid());
   instances_ = make_instance_frames(camera, scene_, buffers_.draw_list());
   triangles_vs_.clear();
-  buffers_.update_instances(instances_);
+  pose(timers);
   camera_block_.set(common_.camera);
   camera_block_.bind();
   samples_block_.bind();
@@ -108,6 +108,12 @@ void Renderer::render(const Camera& camera, const std::vector<Light>& lights, gp
     if (lights.size() > 1) faults_[i] = technique_->fault();  // the next light's frame takes its place
   }
   shade(camera, lights, timers);
+}
+
+void Renderer::pose(gpu::StageTimers& timers) {
+  if (!buffers_.deforms()) return buffers_.update(scene_, instances_);
+  const gpu::StageTimers::Scope scope(timers, deform_name);
+  buffers_.update(scene_, instances_);
 }
 
 void Renderer::shade(const Camera& camera, const std::vector<Light>& lights, gpu::StageTimers& timers) {
@@ -179,6 +185,7 @@ gpu::Plans Renderer::memory_needed(const Technique& technique, int width_px, int
 std::vector<gpu::ProgramSpec> Renderer::program_specs() {
   std::vector<gpu::ProgramSpec> all = GBufferStage::program_specs();
   const auto add = [&](std::vector<gpu::ProgramSpec> more) { all.insert(all.end(), more.begin(), more.end()); };
+  add({DeformStage::program_spec()});
   add(BoundsStage::program_specs());
   add(ShadeStage::program_specs());
   for (const std::string& name : technique_names()) add(make_technique(name)->program_specs());

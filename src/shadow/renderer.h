@@ -11,7 +11,8 @@ namespace izb {
 
 class Renderer {
  public:
-  /// The scene must outlive the renderer. Throws izb::Error if the driver refuses a buffer or a program.
+  /// The scene must outlive the renderer; it may be posed anew between frames. Throws izb::Error if the driver refuses
+  /// a buffer or a program.
   Renderer(const Scene& scene, const gpu::Capabilities& capabilities);
 
   /// Fixes size, technique and its options, for frames with so many lights, each of which takes no more grids than
@@ -57,6 +58,7 @@ class Renderer {
   void select(size_t light, gpu::StageTimers& timers);
   /// So that the technique is as that light left it.
   void select_again(size_t light);
+  void pose(gpu::StageTimers& timers);
   void shade(const Camera& camera, const std::vector<Light>& lights, gpu::StageTimers& timers);
 
   const Scene& scene_;

@@ -35,6 +35,10 @@ int scalars(GltfWriter& gltf, const std::vector<float>& values) {
   return gltf.add_array(values, type_float, "SCALAR", 1);
 }
 
+std::vector<glm::dvec3> posed(const Scene& scene) {
+  return posed_positions_ws(scene, scene.instances[0]);
+}
+
 struct GltfAnimation : testing::Test {
   const TemporaryFolder folder;
 
@@ -137,7 +141,7 @@ TEST_F(GltfAnimation, MorphWeightsAreInterpolated) {
   gltf.root["meshes"][0]["weights"] = {1, 1};  // what the animation says counts
   animate(gltf, 0, "weights", {0, 1, 2}, scalars(gltf, {0, 0, 1, 0, 0, 1}));
   for (const auto& [time_s, z] : {std::pair{0.0, 0.0}, {0.5, 0.5}, {1.0, 1.0}, {1.25, 0.75 + 2.5}, {3.0, 10.0}})
-    EXPECT_NEAR(at(gltf, time_s).meshes[0].positions[0].z, z, 1e-6) << time_s;
+    EXPECT_NEAR(posed(at(gltf, time_s))[0].z, z, 1e-6) << time_s;
 }
 
 TEST_F(GltfAnimation, ASkinFollowsItsJoints) {
@@ -153,13 +157,31 @@ TEST_F(GltfAnimation, ASkinFollowsItsJoints) {
   gltf.root["nodes"][0]["translation"] = {100, 0, 0};  // without effect
   animate(gltf, moving, "translation", {0, 4}, vec3s(gltf, {0, 0, 0, 0, 0, 8}));
   const Scene scene = at(gltf, 1.0);
-  const auto world = [&](size_t i) {
-    return glm::dvec3(scene.instances[0].world_from_object * glm::dvec4(scene.meshes[0].positions[i], 1.0));
-  };
-  EXPECT_NEAR(glm::distance(world(0), glm::dvec3(0, 0, 0)), 0.0, 1e-6);
-  EXPECT_NEAR(glm::distance(world(1), glm::dvec3(1, 0, 2)), 0.0, 1e-6);
-  EXPECT_NEAR(glm::distance(world(2), glm::dvec3(0, 1, 1)), 0.0, 1e-6);
+  const std::vector<glm::dvec3> world = posed(scene);
+  EXPECT_NEAR(glm::distance(world[0], glm::dvec3(0, 0, 0)), 0.0, 1e-6);
+  EXPECT_NEAR(glm::distance(world[1], glm::dvec3(1, 0, 2)), 0.0, 1e-6);
+  EXPECT_NEAR(glm::distance(world[2], glm::dvec3(0, 1, 1)), 0.0, 1e-6);
   EXPECT_TRUE(scene.ignored.empty()) << scene.ignored[0];
+}
+
+TEST_F(GltfAnimation, IsPosedAgainWithoutLoading) {
+  GltfWriter gltf = one_triangle();
+  animate(gltf, 0, "translation", {0, 2}, vec3s(gltf, {0, 0, 0, 10, 0, 0}));
+  json second = gltf.root["animations"][0];
+  second["name"] = "turn";
+  second["channels"][0]["target"]["path"] = "scale";
+  gltf.append("animations", second);
+  gltf.root["nodes"][0]["translation"] = {7, 0, 0};
+  Scene scene = at(gltf, 1.5);
+  Poser poser(scene);
+  EXPECT_EQ(scene.instances[0].world_from_object[3].x, 7.5);
+  poser.at({"move", 0.5});
+  EXPECT_EQ(scene.instances[0].world_from_object[3].x, 2.5);
+  poser.at({"turn", 1.0});  // what another animation moved is at rest again
+  EXPECT_EQ(scene.instances[0].world_from_object[3].x, 7.0);
+  EXPECT_EQ(scene.instances[0].world_from_object[0].x, 5.0);
+  poser.at_rest();
+  EXPECT_EQ(scene.instances[0].world_from_object[0].x, 1.0);
 }
 
 TEST_F(GltfAnimation, IsChosenByNameOrIndex) {

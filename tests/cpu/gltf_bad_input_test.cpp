@@ -178,12 +178,12 @@ const std::vector<Damage> damages = {
     {"unknown type", [](GltfWriter& g) { g.root["accessors"][0]["type"] = "VEC9"; }, "unknown type 'VEC9'"},
     {"sparse index",
      [](GltfWriter& g) {
-       g.root["accessors"][0]["sparse"] = {{"count", 1},
-                                           {"indices", {{"bufferView", 1}, {"byteOffset", 2}, {"componentType", 5121}}},
-                                           {"values", {{"bufferView", 0}}}};
-       g.buffer[38] = 9;
+       g.root["accessors"][0]["sparse"] = {
+           {"count", 1},
+           {"indices", {{"bufferView", 0}, {"byteOffset", 15}, {"componentType", 5121}}},
+           {"values", {{"bufferView", 0}}}};
      },
-     "sparse index of accessors[0] is 9"},
+     "sparse index of accessors[0] is 63"},
     {"sparse count",
      [](GltfWriter& g) {
        g.root["accessors"][0]["sparse"] = {
@@ -260,7 +260,7 @@ const std::vector<Damage> damages = {
        g.root["skins"] = {{{"joints", {0}}}};
        g.root["nodes"][0]["skin"] = 0;
      },
-     "joint 3 of vertex 0 is out of range (1 joints)"},
+     "joint 3 of a vertex is out of range (skins[0] has 1 joints)"},
     {"no triangle", [](GltfWriter& g) { g.root["scenes"][0]["nodes"] = json::array(); }, "holds no triangle"},
     {"lines only", [](GltfWriter& g) { g.root["meshes"][0]["primitives"][0]["mode"] = 1; },
      "holds no triangle, only points or lines"},

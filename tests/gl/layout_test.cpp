@@ -12,6 +12,7 @@
 #include "gpu/program.h"
 #include "shadow/renderer.h"
 #include "shared/bounds.h"
+#include "shared/deform.h"
 #include "shared/lists.h"
 #include "shared/micro_quad.h"
 #include "shared/pairs.h"
@@ -45,6 +46,8 @@ template <>
 constexpr GLint gl_type<mat4> = GL_FLOAT_MAT4;
 template <>
 constexpr GLint gl_type<uint> = GL_UNSIGNED_INT;
+template <>
+constexpr GLint gl_type<float> = GL_FLOAT;
 
 #define FIELD(prefix, type, name)                                \
   {                                                              \
@@ -122,6 +125,21 @@ const std::map<std::string, Block> blocks{
       true,
       {FIELD("pairs[0]", UnsurePair, node), FIELD("pairs[0]", UnsurePair, instance),
        FIELD("pairs[0]", UnsurePair, triangle), FIELD("pairs[0]", UnsurePair, unused)}}},
+    {"RestPositionBlock", {sizeof(float), true, {{"rest_positions[0]", {0, GL_FLOAT}}}}},
+    {"RestNormalBlock", {sizeof(float), true, {{"rest_normals[0]", {0, GL_FLOAT}}}}},
+    {"TargetBlock", {sizeof(float), true, {{"targets[0]", {0, GL_FLOAT}}}}},
+    {"MorphWeightBlock", {sizeof(float), true, {{"morph_weights[0]", {0, GL_FLOAT}}}}},
+    {"DeformedPositionBlock", {sizeof(float), true, {{"deformed_positions[0]", {0, GL_FLOAT}}}}},
+    {"DeformedNormalBlock", {sizeof(float), true, {{"deformed_normals[0]", {0, GL_FLOAT}}}}},
+    {"InfluenceBlock",
+     {sizeof(InfluenceFrame),
+      true,
+      {FIELD("influences[0]", InfluenceFrame, joint), FIELD("influences[0]", InfluenceFrame, weight)}}},
+    {"JointBlock",
+     {sizeof(JointFrame),
+      true,
+      {FIELD("joints[0]", JointFrame, row_x), FIELD("joints[0]", JointFrame, row_y),
+       FIELD("joints[0]", JointFrame, row_z)}}},
     {"PositionBlock", {sizeof(float), true, {{"positions[0]", {0, GL_FLOAT}}}}},
     {"IndexBlock", {sizeof(uint), true, {{"indices[0]", {0, GL_UNSIGNED_INT}}}}},
 };
