@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "gpu/context.h"
+#include "scene/find.h"
 
 namespace izb {
 namespace {
@@ -86,8 +87,6 @@ std::filesystem::path find_views(const std::string& given) {
 }
 
 Camera choose_camera(const FrameOptions& o, const Scene& scene, const std::optional<Viewpoint>& viewpoint) {
-  if (o.eye.empty() != o.target.empty()) throw UsageError("--eye and --target go together");
-  if (!o.eye.empty() && !o.camera.empty()) throw UsageError("--camera and --eye exclude each other");
   if (!o.eye.empty()) {
     const glm::dvec3 eye = parse_vector("eye", o.eye), target = parse_vector("target", o.target);
     if (eye == target) throw UsageError("--eye and --target must differ");
@@ -100,17 +99,6 @@ Camera choose_camera(const FrameOptions& o, const Scene& scene, const std::optio
   return default_camera(world_bounds(scene));
 }
 
-/// The parts of a list "A;B;C", one if there is no semicolon; empty for an empty text.
-std::vector<std::string> parts_of(const std::string& text) {
-  std::vector<std::string> parts;
-  for (size_t at = 0; !text.empty() && at <= text.size();) {
-    const size_t end = std::min(text.find(';', at), text.size());
-    parts.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return parts;
-}
-
 /// Lights of the scene by a list of names or indices, or "all"; a light whose own name looks like a list counts as one.
 std::vector<Light> scene_lights(const Scene& scene, const std::string& text) {
   const auto is_called = [&](const std::string& name) {
@@ -119,7 +107,7 @@ std::vector<Light> scene_lights(const Scene& scene, const std::string& text) {
   if (text == "all" && !is_called("all") && !scene.lights.empty()) return scene.lights;
   if (is_called(text)) return {find_light(scene, text)};
   std::vector<Light> lights;
-  for (const std::string& name : parts_of(text)) lights.push_back(find_light(scene, name));
+  for (const std::string& name : list_of(text)) lights.push_back(find_light(scene, name));
   return lights;
 }
 
@@ -143,9 +131,9 @@ void make_names_unique(std::vector<Light>& lights) {
 std::vector<Light> choose_lights(const FrameOptions& o, const Scene& scene, const std::optional<Viewpoint>& viewpoint) {
   std::vector<Light> lights, lamps;
   if (!o.light.empty()) lights = scene_lights(scene, o.light);
-  for (const std::string& text : parts_of(o.sun)) lights.push_back(parse_sun(text));
-  for (const std::string& text : parts_of(o.spot)) lamps.push_back(parse_spot(text));
-  for (const std::string& text : parts_of(o.point)) lamps.push_back(parse_point(text));
+  for (const std::string& text : list_of(o.sun)) lights.push_back(parse_sun(text));
+  for (const std::string& text : list_of(o.spot)) lamps.push_back(parse_spot(text));
+  for (const std::string& text : list_of(o.point)) lamps.push_back(parse_point(text));
   set_strength(lamps, scene);
   lights.insert(lights.end(), lamps.begin(), lamps.end());
   if (!lights.empty()) return lights;
@@ -173,6 +161,8 @@ OptionSet FrameOptions::options() {
            "a camera of the scene; without one, its first, or one framed on its bounds");
   set.text("eye", eye, "X,Y,Z", "camera position in world units, with --target");
   set.text("target", target, "X,Y,Z", "the point that the camera looks at, in world units");
+  set.text("camera-path", camera_path, "FILE",
+           "key frames that the camera flies through, as JSON; --time or the frame's number chooses the moment");
   set.number("fov", fov_deg, 0.1, 170.0, "degrees", "vertical field of view, with --eye");
   set.text("light", light, "NAME|INDEX|all",
            "a light of the scene, or several with semicolons between them, or all; without any light, the scene's "
@@ -184,8 +174,11 @@ OptionSet FrameOptions::options() {
   set.text("point", point, "X,Y,Z", "a light that shines all around: position in world units");
   set.text("viewpoint", viewpoint, "NAME", "a named view of the views file: camera and light");
   set.number("time", time_s, -1.0, std::numeric_limits<double>::infinity(), "seconds",
-             "the moment of the animation; -1: meshes at rest, or its beginning where --animation names one");
-  set.text("animation", animation, "NAME|INDEX", "an animation of the scene; with --time alone its first");
+             "the moment of the animation and of the camera path; -1: meshes at rest, or the beginning where "
+             "--animation or --frames is given");
+  set.text("animation", animation, "NAME|INDEX|all",
+           "an animation of the scene, or several with semicolons between them, or all; with --time alone its first");
+  set.flag("loop", loop, "an animation begins again at its end");
   set.text("views", views, "FILE", "the views file");
   set.choice("technique", technique, technique_names(), "the shadow technique; its own options are listed below");
   set.text(
@@ -195,9 +188,8 @@ OptionSet FrameOptions::options() {
   return set;
 }
 
-std::optional<AnimationMoment> FrameOptions::moment() const {
-  if (time_s < 0.0 && animation.empty()) return std::nullopt;
-  return AnimationMoment{animation, std::max(time_s, 0.0)};
+bool FrameOptions::plays() const {
+  return time_s >= 0.0 || !animation.empty();
 }
 
 Size parse_size(const std::string& text) {
@@ -211,10 +203,23 @@ Size parse_size(const std::string& text) {
   throw UsageError(fmt::format("--size must be WIDTHxHEIGHT in pixels, each at least 1, not '{}'", text));
 }
 
+void FrameChoice::move(const Poser& poser, double time_s) {
+  if (path)
+    camera = path->at(time_s);
+  else
+    poser.place(camera);
+  for (Light& light : lights) poser.place(light);
+}
+
 FrameChoice choose_frame(const FrameOptions& o, const Scene& scene) {
+  if (o.eye.empty() != o.target.empty()) throw UsageError("--eye and --target go together");
+  if (!o.eye.empty() + !o.camera.empty() + !o.camera_path.empty() > 1)
+    throw UsageError("--camera, --eye and --camera-path exclude each other");
   std::optional<Viewpoint> viewpoint;
   if (!o.viewpoint.empty()) viewpoint = read_viewpoint(find_views(o.views), o.viewpoint);
-  FrameChoice choice{parse_size(o.size), choose_camera(o, scene, viewpoint), choose_lights(o, scene, viewpoint)};
+  FrameChoice choice{parse_size(o.size), {}, {}, choose_lights(o, scene, viewpoint)};
+  if (!o.camera_path.empty()) choice.path = read_camera_path(o.camera_path);
+  choice.camera = choice.path ? choice.path->at(std::max(o.time_s, 0.0)) : choose_camera(o, scene, viewpoint);
   make_names_unique(choice.lights);
   return choice;
 }

@@ -6,7 +6,8 @@
 #include <string>
 
 #include "base/options.h"
-#include "scene/gltf.h"
+#include "scene/camera_path.h"
+#include "scene/pose.h"
 #include "scene/scene.h"
 #include "scene/view.h"
 #include "shadow/technique.h"
@@ -16,12 +17,13 @@ namespace izb {
 /// Values of the shared options, with their defaults.
 struct FrameOptions {
   std::string size = "1280x720";
-  std::string camera, eye, target;
+  std::string camera, camera_path, eye, target;
   double fov_deg = 45.0;
   std::string light, sun, spot, point;
   std::string viewpoint;
   std::string animation;
   double time_s = -1.0;
+  bool loop = false;
   std::string views = "bench/views.json";
   std::string technique = "izb";
   std::string preset;
@@ -29,8 +31,8 @@ struct FrameOptions {
 
   /// Declares them; `technique` and `context` choices come from the registries.
   OptionSet options();
-  /// The moment at which the scene is loaded; nothing: at rest.
-  std::optional<AnimationMoment> moment() const;
+  /// Whether the scene's animations play; they do not: at rest.
+  bool plays() const;
 };
 
 /// A light's name as a layer of an image's channels, where a dot would begin another layer.
@@ -44,7 +46,11 @@ struct Size {
 struct FrameChoice {
   Size size;
   Camera camera;
-  std::vector<Light> lights;  ///< at least one; no two have the same layer_name()
+  std::optional<CameraPath> path;  ///< that the camera follows
+  std::vector<Light> lights;       ///< at least one; no two have the same layer_name()
+
+  /// Camera and lights to where their nodes, or the path, are at that moment.
+  void move(const Poser& poser, double time_s);
 };
 
 /// Throws izb::UsageError for text that does not parse or options that exclude each other, izb::Error for names that

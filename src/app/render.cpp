@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// izb render: one frame as OpenEXR, PNG and JSON.
+// izb render: one frame, or each of a sequence, as OpenEXR, PNG and JSON.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <span>
@@ -8,6 +8,7 @@
 #include "app/outputs.h"
 #include "app/peer.h"
 #include "app/results.h"
+#include "app/sequence.h"
 #include "app/statistics.h"
 #include "base/error.h"
 #include "base/json_text.h"
@@ -27,6 +28,7 @@ struct RenderOptions {
   std::string scene, output, preview, json;
   int repeat = 1;
   bool peer = false;
+  SequenceOptions sequence;
   std::unique_ptr<Technique> technique;
   Arguments arguments;
 
@@ -36,6 +38,7 @@ struct RenderOptions {
     set.text("json", json, "FILE", "also write times, counts, memory and the mask's hash as JSON");
     set.integer("repeat", repeat, 1, 10000, "frames", "frames to time; medians are reported");
     set.flag("peer", peer, "alternate each frame with Embree on the same cores and report its times");
+    sequence.declare(set);
     return set;
   }
 };
@@ -45,13 +48,17 @@ struct Timed {
   nlohmann::json peer;
 };
 
+/// One frame unmeasured: the driver compiles on first use.
+void warm_up(Session& s) {
+  gpu::StageTimers unmeasured(s.timers.wall_clock());
+  s.renderer.render(s.frame.camera, s.frame.lights, unmeasured);
+  glFinish();
+  unmeasured.collect();
+}
+
 Timed render_frames(Session& s, const RenderOptions& o) {
   const FrameChoice& f = s.frame;
-  // One frame unmeasured: the driver compiles on first use.
-  gpu::StageTimers warm_up(s.timers.wall_clock());
-  s.renderer.render(f.camera, f.lights, warm_up);
-  glFinish();
-  warm_up.collect();
+  s.timers.clear();
   std::unique_ptr<Peer> peer;
   if (o.peer) peer = std::make_unique<Peer>(s.renderer);
   Timed timed;
@@ -84,18 +91,29 @@ void print_table(const nlohmann::json& json) {
   fmt::print("{}\n{}\n", counts.str(), memory_line(json));
 }
 
-int render(RenderOptions& o) {
-  if (o.output.empty() && o.preview.empty() && o.json.empty())
-    throw UsageError("nothing to write: give -o FILE.exr, --preview FILE.png or --json FILE.json");
-  Outputs outputs;
-  AtomicFile* const exr = outputs.open("--output", o.output);
-  AtomicFile* const png = outputs.open("--preview", o.preview);
-  AtomicFile* const text = outputs.open("--json", o.json);
-  Session s(o.frame, std::move(o.technique), o.scene);
-  const Timed timed = render_frames(s, o);
-
+/// What a frame is, before it is rendered.
+nlohmann::json facts_of(const Session& s, RenderOptions& o, std::optional<int> frame) {
   nlohmann::json json = provenance(s, o.frame, *s.technique, o.arguments, o.scene);
   json["options"].update(o.options().to_json());
+  if (frame) json["frame"] = *frame;
+  if (frame || o.frame.plays()) json["time_s"] = s.moment.time_s;
+  return json;
+}
+
+/// Where one frame goes; null: not asked for.
+struct FrameFiles {
+  Outputs outputs;
+  AtomicFile *exr, *png, *text;
+
+  FrameFiles(const std::string& exr_path, const std::string& png_path, const std::string& json_path)
+      : exr(outputs.open("--output", exr_path)),
+        png(outputs.open("--preview", png_path)),
+        text(outputs.open("--json", json_path)) {}
+};
+
+/// Renders the frame where the session stands, and writes it. Returns its JSON.
+nlohmann::json write_frame(Session& s, const RenderOptions& o, nlohmann::json json, FrameFiles& files) {
+  const Timed timed = render_frames(s, o);
   json.update(masks_json(s));
   json["stages"] = stages_json(s.timers);
   json["frame_ms"] = median(timed.frame_ms);
@@ -106,15 +124,58 @@ int render(RenderOptions& o) {
   const std::vector<float>& depth = image.floats("depth");
   if (std::none_of(depth.begin(), depth.end(), [](float d) { return d > 0.0f; }))
     warn("no triangle of '{}' is in view: the picture shows the sky", o.scene);
-
-  if (exr) write_exr(*exr, image);
-  if (png) write_png(*png, preview(image));
+  if (files.exr) write_exr(*files.exr, image);
+  if (files.png) write_png(*files.png, preview(image));
   const std::string json_file = json_text(json, 1) + "\n";
-  if (text) text->write(std::as_bytes(std::span(json_file)));
-  outputs.commit();
-  print_table(json);
-  for (const AtomicFile& file : outputs.files()) fmt::print("wrote {}\n", file.target().string());
+  if (files.text) files.text->write(std::as_bytes(std::span(json_file)));
+  files.outputs.commit();
+  return json;
+}
+
+int render_one(RenderOptions& o) {
+  FrameFiles files(o.output, o.preview, o.json);
+  Session s(o.frame, std::move(o.technique), o.scene);
+  warm_up(s);
+  print_table(write_frame(s, o, facts_of(s, o, {}), files));
+  for (const AtomicFile& file : files.outputs.files()) fmt::print("wrote {}\n", file.target().string());
   return 0;
+}
+
+int render_sequence(RenderOptions& o, const FrameRange& range) {
+  if (o.sequence.resume && o.output.empty() && o.json.empty())
+    throw UsageError("--resume needs -o or --json: a PNG does not say what it was made with");
+  const double start_s = std::max(o.frame.time_s, 0.0);
+  const auto moment_s = [&](int frame) { return start_s + frame / o.sequence.fps; };
+  if (!o.frame.plays()) o.frame.time_s = 0.0;
+  // Whether they can be written is known before the work begins.
+  FrameFiles(numbered(o.output, range.first), numbered(o.preview, range.first), numbered(o.json, range.first));
+  Session s(o.frame, std::move(o.technique), o.scene);
+  bool warm = false;
+  for (int n = range.first; n <= range.last; ++n) {
+    const std::string exr = numbered(o.output, n), png = numbered(o.preview, n), json = numbered(o.json, n);
+    s.move_to(moment_s(n));
+    const nlohmann::json facts = facts_of(s, o, n);
+    const auto there = [&](const std::string& path) { return path.empty() || is_rendered(path, facts); };
+    if (o.sequence.resume && there(exr) && there(json) && (png.empty() || std::filesystem::exists(png))) continue;
+    FrameFiles files(exr, png, json);
+    if (!warm) warm_up(s);
+    warm = true;
+    const nlohmann::json written = write_frame(s, o, facts, files);
+    std::string names;
+    for (const AtomicFile& file : files.outputs.files()) names += " " + file.target().string();
+    fmt::print("frame {} ({:.3f} s): {:.1f} ms, wrote{}\n", n, s.moment.time_s, written["frame_ms"].get<double>(),
+               names);
+    std::fflush(stdout);
+  }
+  if (!warm) note("all frames were there already");
+  return 0;
+}
+
+int render(RenderOptions& o) {
+  if (o.output.empty() && o.preview.empty() && o.json.empty())
+    throw UsageError("nothing to write: give -o FILE.exr, --preview FILE.png or --json FILE.json");
+  const std::optional<FrameRange> range = frame_range(o.sequence);
+  return range ? render_sequence(o, *range) : render_one(o);
 }
 
 }  // namespace
@@ -123,7 +184,7 @@ Command add_render(CLI::App& app, const Arguments& arguments) {
   auto o = std::make_shared<RenderOptions>();
   o->technique = technique_of(arguments);
   o->arguments = arguments;
-  CLI::App* sub = app.add_subcommand("render", "Render one frame of a glTF scene");
+  CLI::App* sub = app.add_subcommand("render", "Render one frame of a glTF scene, or each of an animation");
   sub->add_option("SCENE", o->scene, "a .gltf or .glb file")->required();
   sub->add_option("-o,--output", o->output, "write the frame as OpenEXR")->type_name("FILE");
   o->options().add_to(*sub, "Output");

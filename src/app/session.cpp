@@ -51,22 +51,53 @@ Gl::Gl(const std::string& context_name)
 
 namespace {
 
-Scene load_with_progress(const std::string& path, const std::optional<AnimationMoment>& moment) {
+Scene load_with_progress(const std::string& path, bool plays) {
   const Progress progress("loading " + path, 0);
-  return load_gltf(path, moment);
+  return load_gltf(path, !plays);
+}
+
+/// What plays: a camera path alone may have moments, too.
+bool animates(const FrameOptions& options, const Scene& scene) {
+  if (!options.plays()) return false;
+  return !options.animation.empty() || options.camera_path.empty() || !scene.animations.empty();
 }
 
 }  // namespace
 
 Session::Session(const FrameOptions& options, std::unique_ptr<Technique> its_technique, const std::string& scene_path)
-    : scene(load_with_progress(scene_path, options.moment())),
-      frame(choose_frame(options, scene)),
+    : scene(load_with_progress(scene_path, options.plays())),
+      poser(scene),
+      moment{options.animation, std::max(options.time_s, 0.0), options.loop},
+      plays(animates(options, scene)),
+      frame(choose_first_frame(options, scene_path)),
       gl(options.context),
       technique(std::move(its_technique)),
       renderer(scene, gl.capabilities),
       timers(gl.capabilities.software) {
   for (const std::string& sentence : scene.ignored) note("{}: {}", scene_path, sentence);
   renderer.prepare(*technique, frame.size.width_px, frame.size.height_px, frame.lights);
+}
+
+FrameChoice Session::choose_first_frame(const FrameOptions& options, const std::string& scene_path) {
+  try {
+    pose();
+  } catch (const Error& e) {
+    fail("cannot pose '{}': {}", scene_path, e.what());
+  }
+  return choose_frame(options, scene);
+}
+
+void Session::pose() {
+  if (plays)
+    poser.at(moment);
+  else
+    poser.at_rest();
+}
+
+void Session::move_to(double time_s) {
+  moment.time_s = time_s;
+  pose();
+  frame.move(poser, time_s);
 }
 
 }  // namespace izb

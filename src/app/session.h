@@ -23,14 +23,25 @@ struct Gl {
 };
 
 /// Everything for frames of one scene. The technique is its own, since GL objects must not outlive their context.
+/// It stands at the options' --time.
 struct Session {
   Session(const FrameOptions& options, std::unique_ptr<Technique> its_technique, const std::string& scene_path);
+  /// Moves what is animated, the camera and the lights to another moment.
+  void move_to(double time_s);
+
   Scene scene;
+  Poser poser;
+  AnimationMoment moment;
+  bool plays;  ///< whether animations of the scene move it
   FrameChoice frame;
   Gl gl;
   std::unique_ptr<Technique> technique;
   Renderer renderer;
   gpu::StageTimers timers;
+
+ private:
+  void pose();
+  FrameChoice choose_first_frame(const FrameOptions& options, const std::string& scene_path);
 };
 
 }  // namespace izb

@@ -147,6 +147,8 @@ std::vector<SceneReport> validate_scene(const ValidateOptions& o, const std::str
   nlohmann::json json = provenance(s, frame, *s.technique, o.arguments, scene_path);
   json["options"]["points"] = o.points;
   json.update(memory_json(s.renderer));
+  if (s.renderer.scene_buffers().deforms())
+    json["deformation"] = deformation_json(check_deformation(s.scene, s.renderer.scene_buffers()));
 
   Progress progress("building the ray tracer of " + scene_path, 1 + 3 * masks.size());
   const Truth truth(s);
@@ -167,7 +169,10 @@ bool passes(const SceneReport& report, double max_leak_percent) {
   const nlohmann::json& json = report.json;
   const bool leaks = json.contains("attribution") && json["attribution"]["leak_percent"] > max_leak_percent;
   if (leaks) warn("{}: the insertion leaks more than --max-leak {} percent", report.scene, max_leak_percent);
-  return !leaks && json["unexplained"] == 0 && (!json.contains("points") || json["points"]["wrong"] == 0);
+  const bool misplaced =
+      json.contains("deformation") && (json["deformation"]["wrong"] != 0 || json["deformation"]["not_as_on_cpu"] != 0);
+  if (misplaced) warn("{}: deformed vertices are not where double precision puts them", report.scene);
+  return !leaks && !misplaced && json["unexplained"] == 0 && (!json.contains("points") || json["points"]["wrong"] == 0);
 }
 
 /// One of each scene, null where none is asked for; with several scenes the stem of each is in its name.
@@ -235,7 +240,9 @@ Command add_validate(CLI::App& app, const Arguments& arguments) {
       "At 32 samples a pixel with approximations the frame is rendered without them, too: wrong bits are attributed "
       "to\n"
       "the one that made them, and what remains must be explained.\n"
-      "Exit code 1 if any bit is unexplained, any pixel sees a wrong triangle, or more than --max-leak leaks.");
+      "Exit code 1 if any bit is unexplained, any pixel sees a wrong triangle, any deformed vertex is elsewhere than "
+      "double\n"
+      "precision puts it, or more than --max-leak leaks.");
   return [o] { return validate(*o); };
 }
 

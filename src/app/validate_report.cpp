@@ -51,6 +51,13 @@ nlohmann::json attribution_json(const reference::Attribution& sums) {
           {"leak_percent", sums.leak_percent()}};
 }
 
+nlohmann::json deformation_json(const DeformCheck& check) {
+  return {{"vertices", check.vertices},
+          {"wrong", check.wrong},
+          {"not_as_on_cpu", check.not_as_on_cpu},
+          {"largest_error", check.largest_error}};
+}
+
 nlohmann::json model_json(const reference::ModelError& error) {
   return {{"compared", error.compared}, {"differing", error.differing}, {"percent", error.percent()}};
 }
@@ -89,7 +96,8 @@ void print_table(const std::vector<SceneReport>& reports) {
                                                         {"insertion leaks", "/attribution/insertion_leaks"},
                                                         {"insertion false", "/attribution/insertion_false"},
                                                         {"leak %", "/attribution/leak_percent"},
-                                                        {"model %", "/model/percent"}})
+                                                        {"model %", "/model/percent"},
+                                                        {"vertices wrong", "/deformation/wrong"}})
     if (std::any_of(reports.begin(), reports.end(), [&](const SceneReport& report) {
           return report.json.contains(nlohmann::json::json_pointer(more.path));
         }))

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "frame/deform_check.h"
 #include "reference/attribute.h"
 #include "reference/model.h"
 #include "reference/points.h"
@@ -22,6 +23,7 @@ struct SceneReport {
 nlohmann::json settled_json(const reference::Settled& settled);
 nlohmann::json points_json(const reference::PointCheck& check);
 nlohmann::json attribution_json(const reference::Attribution& sums);
+nlohmann::json deformation_json(const DeformCheck& check);
 nlohmann::json model_json(const reference::ModelError& error);
 
 /// The first unexplained bits.

@@ -244,4 +244,15 @@ Image read_exr(const std::filesystem::path& path) {
   }
 }
 
+std::map<std::string, Attribute> read_exr_attributes(const std::filesystem::path& path) {
+  try {
+    const Imf::InputFile file(path.c_str());
+    Image image;
+    for (auto a = file.header().begin(); a != file.header().end(); ++a) get_attribute(a.name(), a.attribute(), image);
+    return image.attributes;
+  } catch (const std::exception& error) {
+    fail("cannot read '{}' as OpenEXR: {}", path.string(), cause_of(error, path.string()));
+  }
+}
+
 }  // namespace izb

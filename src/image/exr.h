@@ -33,4 +33,7 @@ void write_exr(AtomicFile& file, const Image& image, const ExrOptions& options =
 /// izb::Error if the file is missing, is no OpenEXR file, is truncated, or has subsampled channels.
 Image read_exr(const std::filesystem::path& path);
 
+/// Its attributes alone, without reading the pixels.
+std::map<std::string, Attribute> read_exr_attributes(const std::filesystem::path& path);
+
 }  // namespace izb

@@ -3,6 +3,7 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <string>
 #include <vector>
@@ -26,6 +27,17 @@ std::string names_of(const std::vector<T>& objects) {
   std::string names;
   for (size_t i = 0; i < objects.size(); ++i) names += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, objects[i].name);
   return names;
+}
+
+/// The parts of a list "A;B;C", one if there is no semicolon; empty for an empty text.
+inline std::vector<std::string> list_of(const std::string& text) {
+  std::vector<std::string> parts;
+  for (size_t at = 0; !text.empty() && at <= text.size();) {
+    const size_t end = std::min(text.find(';', at), text.size());
+    parts.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return parts;
 }
 
 }  // namespace izb

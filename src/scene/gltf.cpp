@@ -17,6 +17,7 @@
 #include "scene/gltf_mesh.h"
 #include "scene/gltf_nodes.h"
 #include "scene/gltf_punctual.h"
+#include "scene/pose.h"
 
 namespace izb {
 namespace {
@@ -42,13 +43,13 @@ void load_skins(const tinygltf::Model& model, const NodeHierarchy& nodes, Scene&
 /// Turns the nodes' meshes into meshes and instances. A primitive is loaded once, however many nodes show it.
 class InstanceLoader {
  public:
-  InstanceLoader(const tinygltf::Model& model, const NodeHierarchy& nodes, bool at_rest, Scene& scene)
-      : model_(model), nodes_(nodes), at_rest_(at_rest), scene_(scene) {}
+  InstanceLoader(const tinygltf::Model& model, const NodeHierarchy& nodes, bool stays, Scene& scene)
+      : model_(model), nodes_(nodes), stays_(stays), scene_(scene) {}
 
   void run() {
     for (const int i : nodes_.in_scene)
       if (model_.nodes[static_cast<size_t>(i)].mesh >= 0) add_node(static_cast<size_t>(i));
-    tally_.describe(scene_.ignored, at_rest_);
+    tally_.describe(scene_.ignored, stays_);
     if (scene_.triangle_count() == 0)
       fail("its scene holds no triangle{}",
            tally_.point_primitives + tally_.line_primitives > 0 ? ", only points or lines" : "");
@@ -97,7 +98,7 @@ class InstanceLoader {
 
   const tinygltf::Model& model_;
   const NodeHierarchy& nodes_;
-  const bool at_rest_;
+  const bool stays_;
   Scene& scene_;
   MeshTally tally_;
   std::map<std::pair<int, int>, int> shared_;  ///< mesh and primitive of the file → mesh of the scene
@@ -122,7 +123,7 @@ void describe_extensions(const tinygltf::Model& model, Scene& scene) {
   }
 }
 
-Scene load(const std::filesystem::path& path, const std::optional<AnimationMoment>& moment) {
+Scene load(const std::filesystem::path& path, bool stays) {
   tinygltf::Model model = read_gltf_document(path);
   Scene scene;
   scene.name = path.stem().string();
@@ -130,27 +131,23 @@ Scene load(const std::filesystem::path& path, const std::optional<AnimationMomen
   load_materials(model, scene);
   load_animations(model, nodes, scene);
   load_skins(model, nodes, scene);
-  InstanceLoader(model, nodes, !moment, scene).run();
+  InstanceLoader(model, nodes, stays, scene).run();
   add_default_material(scene);
   load_cameras(model, nodes, scene);
   load_lights(model, nodes, scene);
   describe_extensions(model, scene);
-  if (!moment && !scene.animations.empty())
+  if (stays && !scene.animations.empty())
     scene.ignored.push_back(fmt::format("animations: {}, none is played (--time and --animation choose a moment)",
                                         scene.animations.size()));
-  Poser poser(scene);
-  if (moment)
-    poser.at(*moment);
-  else
-    poser.at_rest();
+  Poser(scene).at_rest();
   return scene;
 }
 
 }  // namespace
 
-Scene load_gltf(const std::filesystem::path& path, const std::optional<AnimationMoment>& moment) {
+Scene load_gltf(const std::filesystem::path& path, bool stays) {
   try {
-    return load(path, moment);
+    return load(path, stays);
   } catch (const Error& e) {
     fail("cannot load '{}': {}", path.string(), e.what());
   } catch (const std::bad_alloc&) {

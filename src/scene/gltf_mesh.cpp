@@ -222,7 +222,7 @@ std::optional<Mesh> load_primitive(const tinygltf::Model& model, int mesh_index,
   }
 }
 
-void MeshTally::describe(std::vector<std::string>& ignored, bool at_rest) const {
+void MeshTally::describe(std::vector<std::string>& ignored, bool stays) const {
   const auto say = [&](const char* what, size_t count, const char* consequence) {
     if (count > 0) ignored.push_back(fmt::format("{}: {}, {}", what, count, consequence));
   };
@@ -232,7 +232,7 @@ void MeshTally::describe(std::vector<std::string>& ignored, bool at_rest) const 
   say("vertices beyond the last whole triangle of their primitive", trailing_indices, "not used");
   say("normals without a direction", bad_normals, "replaced by the normal of their triangles");
   say("primitives with vertex colours", colored_primitives, "the colours are not shown");
-  if (!at_rest) return;
+  if (!stays) return;
   say("skinned primitives", skinned_primitives, "standing in bind pose (their joints at rest)");
   say("primitives with morph targets", morphed_primitives, "standing still with their default weights");
 }

@@ -18,8 +18,8 @@ struct MeshTally {
   size_t colored_primitives = 0;  ///< with COLOR_0
   size_t skinned_primitives = 0, morphed_primitives = 0;
 
-  /// One sentence for each thing that was counted, appended to `ignored`; `at_rest`: no animation poses the meshes.
-  void describe(std::vector<std::string>& ignored, bool at_rest) const;
+  /// One sentence for each thing that was counted, appended to `ignored`; `stays`: no animation poses the meshes.
+  void describe(std::vector<std::string>& ignored, bool stays) const;
 };
 
 /// One primitive at rest as an indexed triangle list: strips and fans unrolled, with what morph targets and joints do

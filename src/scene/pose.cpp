@@ -83,13 +83,26 @@ void apply(const Track& track, double time_s, Node& node) {
 
 }  // namespace
 
-const Animation& find_animation(const Scene& scene, const std::string& name) {
+std::vector<const Animation*> find_animations(const Scene& scene, const std::string& names) {
   if (scene.animations.empty()) fail("it has no animation");
-  const Animation* const found =
-      name.empty() ? &scene.animations.front() : find_by_name_or_index(scene.animations, name);
-  if (!found) fail("it has no animation '{}'; there are {}", name, names_of(scene.animations));
-  if (!found->fault.empty()) fail("{}", found->fault);
-  return *found;
+  std::vector<const Animation*> found;
+  const auto add = [&](const std::string& name) {
+    const Animation* const one = find_by_name_or_index(scene.animations, name);
+    if (!one) fail("it has no animation '{}'; there are {}", name, names_of(scene.animations));
+    found.push_back(one);
+  };
+  const auto is_one = [&] { return find_by_name_or_index(scene.animations, names) != nullptr; };
+  if (names.empty())
+    found.push_back(&scene.animations.front());
+  else if (names == "all" && !is_one())
+    for (const Animation& animation : scene.animations) found.push_back(&animation);
+  else if (is_one())
+    add(names);
+  else
+    for (const std::string& name : list_of(names)) add(name);
+  for (const Animation* const animation : found)
+    if (!animation->fault.empty()) fail("{}", animation->fault);
+  return found;
 }
 
 std::vector<double> value_at(const Track& track, double time_s) {
@@ -132,49 +145,55 @@ void Poser::at_rest() {
 }
 
 void Poser::at(const AnimationMoment& moment) {
-  const Animation& animation = find_animation(scene_, moment.animation);
   std::vector<Node> nodes = scene_.nodes;
-  for (const Track& track : animation.tracks) apply(track, moment.time_s, nodes[track.node]);
+  for (const Animation* const animation : find_animations(scene_, moment.animation)) {
+    const bool loops = moment.loop && animation->length_s > 0.0;
+    const double time_s = loops ? std::fmod(moment.time_s, animation->length_s) : moment.time_s;
+    for (const Track& track : animation->tracks) apply(track, time_s, nodes[track.node]);
+  }
   pose(nodes);
 }
 
 void Poser::pose(const std::vector<Node>& nodes) {
-  const std::vector<glm::dmat4> world_from_node = world_from_nodes(nodes);
+  world_from_node_ = world_from_nodes(nodes);
   for (Skin& skin : scene_.skins) {
     skin.world_from_bind.resize(skin.joints.size());
     for (size_t j = 0; j < skin.joints.size(); ++j)
-      skin.world_from_bind[j] = world_from_node[skin.joints[j]] * skin.joint_from_bind[j];
+      skin.world_from_bind[j] = world_from_node_[skin.joints[j]] * skin.joint_from_bind[j];
   }
-  for (Instance& instance : scene_.instances) place(instance, nodes, world_from_node);
-  for (Camera& camera : scene_.cameras)
-    if (camera.node >= 0)
-      if (const auto placed = rigid(world_from_node[static_cast<size_t>(camera.node)]))
-        camera.world_from_view = *placed;
-  for (Light& light : scene_.lights) {
-    if (light.node < 0) continue;
-    const glm::dmat4& world = world_from_node[static_cast<size_t>(light.node)];
-    light.position_ws = glm::dvec3(world[3]);
-    const double z_length = glm::length(glm::dvec3(world[2]));
-    if (z_length > 0.0) light.direction_ws = -glm::dvec3(world[2]) / z_length;
-  }
+  for (Instance& instance : scene_.instances) place(instance, nodes);
+  for (Camera& camera : scene_.cameras) place(camera);
+  for (Light& light : scene_.lights) place(light);
 }
 
-void Poser::place(Instance& instance, const std::vector<Node>& nodes,
-                  const std::vector<glm::dmat4>& world_from_node) const {
+void Poser::place(Camera& camera) const {
+  if (camera.node < 0) return;
+  if (const auto placed = rigid(world_from_node_[static_cast<size_t>(camera.node)])) camera.world_from_view = *placed;
+}
+
+void Poser::place(Light& light) const {
+  if (light.node < 0) return;
+  const glm::dmat4& world = world_from_node_[static_cast<size_t>(light.node)];
+  light.position_ws = glm::dvec3(world[3]);
+  const double z_length = glm::length(glm::dvec3(world[2]));
+  if (z_length > 0.0) light.direction_ws = -glm::dvec3(world[2]) / z_length;
+}
+
+void Poser::place(Instance& instance, const std::vector<Node>& nodes) const {
   if (instance.node < 0) return;
   const auto node = static_cast<size_t>(instance.node);
   std::fill(instance.morph_weights.begin(), instance.morph_weights.end(), 0.0f);
   for (size_t t = 0; t < std::min(instance.morph_weights.size(), nodes[node].morph_weights.size()); ++t)
     instance.morph_weights[t] = static_cast<float>(nodes[node].morph_weights[t]);
   if (instance.skin < 0) {
-    instance.world_from_object = world_from_node[node];
+    instance.world_from_object = world_from_node_[node];
     check(instance.world_from_object, instance);
     return;
   }
   // The joints place the mesh; seen from one of them the numbers stay small, wherever the body stands.
   const Skin& skin = scene_.skins[static_cast<size_t>(instance.skin)];
   instance.world_from_object = glm::dmat4(1.0);
-  instance.world_from_object[3] = world_from_node[skin.joints.front()][3];
+  instance.world_from_object[3] = world_from_node_[skin.joints.front()][3];
   for (const glm::dmat4& joint : skin.world_from_bind) check(joint, instance);
 }
 

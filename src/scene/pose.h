@@ -10,15 +10,15 @@
 
 namespace izb {
 
-/// A moment of one of a scene's animations.
+/// A moment of a scene's animations.
 struct AnimationMoment {
-  std::string animation;  ///< its name or index; empty: the scene's first
+  std::string animation;  ///< name or index, several with semicolons between them, or "all"; empty: the scene's first
   double time_s = 0.0;
+  bool loop = false;  ///< an animation begins again at its end
 };
 
-/// The animation of that name or index, of an empty name the first. Throws izb::Error with the names there are, or with
-/// the fault of one that cannot be played.
-const Animation& find_animation(const Scene& scene, const std::string& name);
+/// The animations so named. Throws izb::Error with the names there are, or with the fault of one that cannot be played.
+std::vector<const Animation*> find_animations(const Scene& scene, const std::string& names);
 
 /// The property at that time: a time before the first key is that key's, one after the last is the last's.
 std::vector<double> value_at(const Track& track, double time_s);
@@ -35,18 +35,23 @@ std::optional<glm::dmat4> rigid(const glm::dmat4& world_from_node);
 class Poser {
  public:
   explicit Poser(Scene& scene);
-  /// Nodes at rest, weights as in the file.
+  /// Nodes at rest, weights as in the file. Throws izb::Error with the cause alone: coordinates that single precision
+  /// cannot hold.
   void at_rest();
-  /// Throws izb::Error with the cause alone: find_animation()'s, and coordinates that single precision cannot hold.
+  /// What the animations do not move is at rest. Throws also what find_animations() does.
   void at(const AnimationMoment& moment);
+  /// Where its node is now; one without stays.
+  void place(Camera& camera) const;
+  void place(Light& light) const;
 
  private:
   void pose(const std::vector<Node>& nodes);
-  void place(Instance& instance, const std::vector<Node>& nodes, const std::vector<glm::dmat4>& world_from_node) const;
+  void place(Instance& instance, const std::vector<Node>& nodes) const;
   void check(const glm::dmat4& world_from_mesh, const Instance& instance) const;
 
   Scene& scene_;
-  std::vector<Bounds> bounds_;  ///< of each mesh at rest
+  std::vector<Bounds> bounds_;               ///< of each mesh at rest
+  std::vector<glm::dmat4> world_from_node_;  ///< as posed
 };
 
 /// An instance's vertices as posed, in the space that its own matrix places: morph targets, then the skin. The

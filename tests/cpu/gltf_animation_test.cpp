@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "cpu/gltf_writer.h"
 #include "scene/gltf.h"
+#include "scene/pose.h"
 #include "scene/view.h"
 
 namespace izb::test {
@@ -43,7 +44,9 @@ struct GltfAnimation : testing::Test {
   const TemporaryFolder folder;
 
   Scene at(const GltfWriter& gltf, double time_s, const std::string& animation = "") const {
-    return load_gltf(write_file(folder / "animated.glb", gltf.glb()), AnimationMoment{animation, time_s});
+    Scene scene = load_gltf(write_file(folder / "animated.glb", gltf.glb()), false);
+    Poser(scene).at({animation, time_s});
+    return scene;
   }
   glm::dmat4 placed(const GltfWriter& gltf, double time_s) const {
     return at(gltf, time_s).instances[0].world_from_object;
@@ -180,6 +183,13 @@ TEST_F(GltfAnimation, IsPosedAgainWithoutLoading) {
   poser.at({"turn", 1.0});  // what another animation moved is at rest again
   EXPECT_EQ(scene.instances[0].world_from_object[3].x, 7.0);
   EXPECT_EQ(scene.instances[0].world_from_object[0].x, 5.0);
+  for (const char* both : {"all", "move;1"}) {
+    poser.at({both, 0.5});
+    EXPECT_EQ(scene.instances[0].world_from_object[3].x, 2.5) << both;
+    EXPECT_EQ(scene.instances[0].world_from_object[0].x, 2.5) << both;
+  }
+  poser.at({"move", 4.5, true});
+  EXPECT_EQ(scene.instances[0].world_from_object[3].x, 2.5);
   poser.at_rest();
   EXPECT_EQ(scene.instances[0].world_from_object[0].x, 1.0);
 }

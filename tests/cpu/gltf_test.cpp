@@ -8,6 +8,7 @@
 #include <glm/gtc/epsilon.hpp>
 
 #include "gltf_writer.h"
+#include "scene/pose.h"
 #include "scene/view.h"
 
 namespace izb {
