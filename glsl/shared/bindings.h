@@ -25,6 +25,10 @@
 #define BIND_POOL 9
 #define BIND_METER 10
 #define BIND_EXPOSED 11
+// Further windows of positions and indices, one number each, where a driver's storage blocks are too small for the scene.
+#define MAX_GEOMETRY_WINDOWS 6
+#define BIND_MORE_POSITIONS 16
+#define BIND_MORE_INDICES 21
 // Of the deformation, which runs before all others: any that it leaves bound is bound anew.
 #define BIND_REST_POSITIONS 0
 #define BIND_REST_NORMALS 1

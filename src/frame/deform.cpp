@@ -83,9 +83,9 @@ DeformStage::Layout DeformStage::lay_out(const Scene& scene, const DrawList& lis
     end += range.size_bytes;
     return range;
   };
-  for (size_t i = 0; i < list.instances.size(); ++i) {
-    const Instance& instance = scene.instances[list.instances[i]];
-    if (!instance.deforms()) continue;
+  for (const DrawPart& drawn : list.parts) {
+    const Instance& instance = scene.instances[drawn.instance];
+    if (!instance.deforms() || drawn.mesh_triangle > 0) continue;
     const Mesh& mesh = scene.meshes[instance.mesh];
     const auto [it, is_new] = of_mesh.try_emplace(instance.mesh);
     if (is_new) {
@@ -95,8 +95,8 @@ DeformStage::Layout DeformStage::lay_out(const Scene& scene, const DrawList& lis
       it->second.influences = take(layout.influences_bytes, mesh.joints.size() * sizeof(shared::InfluenceFrame));
     }
     Part part = it->second;
-    part.instance = list.instances[i];
-    part.first_vertex = list.base_vertex[i];
+    part.instance = drawn.instance;
+    part.first_vertex = drawn.base_vertex;
     part.vertex_count = static_cast<uint32_t>(mesh.positions.size());
     part.morph_weights = take(layout.morph_weights_bytes, instance.morph_weights.size() * sizeof(float));
     const auto [skin, is_new_skin] = of_skin.try_emplace(instance.skin);

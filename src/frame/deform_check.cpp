@@ -48,9 +48,9 @@ double in_bounds(const glm::dvec3& error, const glm::dvec3& bound) {
 DeformCheck check_deformation(const Scene& scene, const SceneBuffers& buffers) {
   DeformCheck check;
   const DrawList& list = buffers.draw_list();
-  for (size_t i = 0; i < list.instances.size(); ++i) {
-    const Instance& instance = scene.instances[list.instances[i]];
-    if (!instance.deforms()) continue;
+  for (const DrawPart& part : list.parts) {
+    const Instance& instance = scene.instances[part.instance];
+    if (!instance.deforms() || part.mesh_triangle > 0) continue;
     const Mesh& mesh = scene.meshes[instance.mesh];
     const glm::dmat4 object_from_world = glm::inverse(instance.world_from_object);
     std::vector<glm::dmat4> object_from_bind;
@@ -58,7 +58,7 @@ DeformCheck check_deformation(const Scene& scene, const SceneBuffers& buffers) {
       for (const glm::dmat4& m : scene.skins[static_cast<size_t>(instance.skin)].world_from_bind)
         object_from_bind.push_back(object_from_world * m);
     std::vector<glm::vec3> found(mesh.positions.size());
-    buffers.positions().read_bytes(list.base_vertex[i] * sizeof(glm::vec3), found.size() * sizeof(glm::vec3),
+    buffers.positions().read_bytes(part.base_vertex * sizeof(glm::vec3), found.size() * sizeof(glm::vec3),
                                    found.data());
     const std::vector<glm::vec3> on_cpu = deformed_positions(scene, instance);
     const std::vector<glm::dvec3> expected = posed_positions(scene, instance);

@@ -43,39 +43,85 @@ uint32_t place_vertices(const Scene& scene, const Instance& instance, DrawList& 
   return static_cast<uint32_t>(first);
 }
 
-}  // namespace
-
-DrawList make_draw_list(const Scene& scene) {
-  DrawList list;
-  place_meshes(scene, list);
-
+/// Instances in drawing order: those of one texture together, then those of one mesh.
+std::vector<uint32_t> ordered_instances(const Scene& scene) {
   const auto key = [&](uint32_t i) {
     const uint32_t mesh = scene.instances[i].mesh;
     return std::tuple(scene.materials[scene.meshes[mesh].material].base_color_texture, mesh, i);
   };
-  list.instances.resize(scene.instances.size());
-  std::iota(list.instances.begin(), list.instances.end(), 0u);
-  std::sort(list.instances.begin(), list.instances.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
+  std::vector<uint32_t> order(scene.instances.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
+  return order;
+}
 
-  uint32_t previous_mesh = std::numeric_limits<uint32_t>::max();
-  for (uint32_t i = 0; i < list.instances.size(); ++i) {
-    const Instance& instance = scene.instances[list.instances[i]];
-    const uint32_t mesh_index = instance.mesh;
-    const Mesh& mesh = scene.meshes[mesh_index];
-    const int texture = scene.materials[mesh.material].base_color_texture;
-    list.first_triangle.push_back(list.triangle_count);
-    list.triangle_count += static_cast<uint32_t>(mesh.triangle_count());
-    list.base_vertex.push_back(place_vertices(scene, instance, list));
-    if (mesh_index == previous_mesh && list.base_vertex[i] == list.base_vertex[i - 1]) {
-      ++list.commands.back().instance_count;
-      continue;
+/// Appends parts, commands and groups to a list whose meshes are placed.
+class Builder {
+ public:
+  Builder(const Scene& scene, uint32_t part_triangles, DrawList& list)
+      : scene_(scene), part_triangles_(part_triangles), list_(list) {}
+
+  /// The instances in [first, end) show one mesh.
+  void add(const uint32_t* first, const uint32_t* end) {
+    std::vector<uint32_t> base_vertices;
+    for (const uint32_t* i = first; i != end; ++i)
+      base_vertices.push_back(place_vertices(scene_, scene_.instances[*i], list_));
+    const Mesh& mesh = scene_.meshes[scene_.instances[*first].mesh];
+    const auto triangles = static_cast<uint32_t>(mesh.triangle_count());
+    for (uint32_t from = 0; from < triangles; from += part_triangles_) {
+      const uint32_t count = std::min(part_triangles_, triangles - from);
+      for (const uint32_t* i = first; i != end; ++i)
+        add_part(*i, from, count, base_vertices[static_cast<size_t>(i - first)]);
     }
-    previous_mesh = mesh_index;
-    if (list.groups.empty() || list.groups.back().texture != texture)
-      list.groups.push_back({texture, static_cast<uint32_t>(list.commands.size()), 0});
-    ++list.groups.back().command_count;
-    list.commands.push_back(
-        {static_cast<uint32_t>(mesh.indices.size()), 1, list.first_index[mesh_index], list.base_vertex[i], i});
+  }
+
+ private:
+  void add_part(uint32_t instance, uint32_t mesh_triangle, uint32_t triangle_count, uint32_t base_vertex) {
+    const uint32_t mesh = scene_.instances[instance].mesh;
+    const uint32_t first_index = list_.first_index[mesh] + 3 * mesh_triangle;
+    list_.parts.push_back({instance, mesh_triangle, triangle_count, list_.triangle_count, first_index, base_vertex});
+    list_.first_triangle.push_back(list_.triangle_count);
+    list_.triangle_count += triangle_count;
+    if (!list_.commands.empty()) {
+      DrawCommand& last = list_.commands.back();
+      const uint64_t together = (uint64_t(last.instance_count) + 1) * triangle_count;
+      if (last.first_index == first_index && last.base_vertex == base_vertex && together <= part_triangles_) {
+        ++last.instance_count;
+        list_.groups.back().triangle_count += triangle_count;
+        return;
+      }
+    }
+    add_command(mesh, {3 * triangle_count, 1, first_index, base_vertex, static_cast<uint32_t>(list_.parts.size() - 1)});
+  }
+
+  void add_command(uint32_t mesh, const DrawCommand& command) {
+    const int texture = scene_.materials[scene_.meshes[mesh].material].base_color_texture;
+    const bool full = !list_.groups.empty() && list_.groups.back().triangle_count >= part_triangles_;
+    if (list_.groups.empty() || list_.groups.back().texture != texture || full)
+      list_.groups.push_back({texture, static_cast<uint32_t>(list_.commands.size()), 0, 0});
+    ++list_.groups.back().command_count;
+    list_.groups.back().triangle_count += command.index_count / 3;
+    list_.commands.push_back(command);
+  }
+
+  const Scene& scene_;
+  const uint32_t part_triangles_;
+  DrawList& list_;
+};
+
+}  // namespace
+
+DrawList make_draw_list(const Scene& scene, uint32_t part_triangles) {
+  DrawList list;
+  place_meshes(scene, list);
+  const std::vector<uint32_t> order = ordered_instances(scene);
+  Builder builder(scene, part_triangles, list);
+  const uint32_t* const end = order.data() + order.size();
+  for (const uint32_t* first = order.data(); first != end;) {
+    const uint32_t mesh = scene.instances[*first].mesh;
+    const uint32_t* const last = std::find_if(first, end, [&](uint32_t i) { return scene.instances[i].mesh != mesh; });
+    builder.add(first, last);
+    first = last;
   }
   return list;
 }

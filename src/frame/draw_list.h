@@ -13,23 +13,36 @@ struct DrawCommand {
   uint32_t index_count = 0, instance_count = 0, first_index = 0, base_vertex = 0, base_instance = 0;
 };
 
-/// Commands that share a base-colour texture.
+/// Commands one after another that share a base-colour texture.
 struct DrawGroup {
   int texture = -1;  ///< index into Scene::textures or -1
   uint32_t first_command = 0, command_count = 0;
+  uint64_t triangle_count = 0;
 };
+
+/// An instance, or of a large one some of its triangles: what the G-buffer's id names, by its place in the list.
+struct DrawPart {
+  uint32_t instance = 0;       ///< entry of Scene::instances
+  uint32_t mesh_triangle = 0;  ///< its first triangle, as the mesh counts them
+  uint32_t triangle_count = 0;
+  uint32_t first_triangle = 0;  ///< in the frame's numbering
+  uint32_t first_index = 0;     ///< in the joined index buffer
+  uint32_t base_vertex = 0;     ///< what its mesh's vertex 0 is in the joined vertex buffers
+};
+
+/// Parts, commands and groups have at most so many triangles (but for a group of one command), so that a software
+/// renderer, which stores what it has not yet rasterised, can be made to finish in between.
+inline constexpr uint32_t largest_part_triangles = 1u << 16;
 
 /// Ranges of deformed vertices begin at multiples of it, so that each can be bound alone.
 inline constexpr uint32_t deformed_vertex_alignment = 64;
 
 struct DrawList {
-  std::vector<uint32_t> instances;       ///< indices into Scene::instances, in drawing order
-  std::vector<uint32_t> first_triangle;  ///< of each entry of `instances`, in the frame's numbering
+  std::vector<DrawPart> parts;           ///< in drawing order
+  std::vector<uint32_t> first_triangle;  ///< of each part
   std::vector<uint32_t> first_index;     ///< of each mesh in the joined index buffer
-  std::vector<uint32_t>
-      base_vertex;  ///< of each entry of `instances`: what its mesh's vertex 0 is in the joined buffers
-  std::vector<uint32_t> first_vertex;  ///< of each mesh at rest in those, no_vertex: not there, since it only deforms
-  std::vector<DrawCommand> commands;   ///< one a mesh that is placed at all, one an instance that deforms
+  std::vector<uint32_t> first_vertex;    ///< of each mesh at rest in those, no_vertex: not there, since it only deforms
+  std::vector<DrawCommand> commands;     ///< each draws a part, or the same part of several instances at rest
   std::vector<DrawGroup> groups;
   uint32_t vertex_count = 0, index_count = 0, triangle_count = 0;
 
@@ -37,7 +50,7 @@ struct DrawList {
 };
 
 /// An instance that deforms has vertices of its own. Throws izb::Error if the scene has more triangles or vertices than
-/// 32 bits can number.
-DrawList make_draw_list(const Scene& scene);
+/// 32 bits can number. `part_triangles`, for tests, takes the place of largest_part_triangles.
+DrawList make_draw_list(const Scene& scene, uint32_t part_triangles = largest_part_triangles);
 
 }  // namespace izb

@@ -86,13 +86,14 @@ shared::LightFrame make_light_frame(const Camera& camera, const shared::CameraFr
 std::vector<shared::InstanceFrame> make_instance_frames(const Camera& camera, const Scene& scene,
                                                         const DrawList& list) {
   const glm::dmat4 view_from_world = glm::inverse(camera.world_from_view);
-  std::vector<shared::InstanceFrame> frames(list.instances.size());
-  for (size_t i = 0; i < frames.size(); ++i) {
-    const Instance& instance = scene.instances[list.instances[i]];
+  std::vector<shared::InstanceFrame> frames;
+  frames.reserve(list.parts.size());
+  for (const DrawPart& part : list.parts) {
+    const Instance& instance = scene.instances[part.instance];
     const glm::mat4 rows = glm::mat4(glm::transpose(view_from_world * instance.world_from_object));
-    frames[i] = {rows[0], rows[1], rows[2],
-                 glm::uvec4(list.first_triangle[i], scene.meshes[instance.mesh].material,
-                            list.first_index[instance.mesh], list.base_vertex[i])};
+    frames.push_back(
+        {rows[0], rows[1], rows[2],
+         glm::uvec4(part.first_triangle, scene.meshes[instance.mesh].material, part.first_index, part.base_vertex)});
   }
   return frames;
 }
@@ -148,11 +149,14 @@ std::vector<glm::vec3> flatten(const Scene& scene, const DrawList& list,
   positions.reserve(size_t(list.triangle_count) * 3);
   std::vector<glm::vec3> moved;
   for (size_t i = 0; i < instances.size(); ++i) {
-    const Instance& instance = scene.instances[list.instances[i]];
-    const Mesh& mesh = scene.meshes[instance.mesh];
-    moved = deformed_positions(scene, instance);
-    for (glm::vec3& p : moved) p = shared::view_from_object(instances[i], p);
-    for (const uint32_t index : mesh.indices) positions.push_back(moved[index]);
+    const DrawPart& part = list.parts[i];
+    const Instance& instance = scene.instances[part.instance];
+    if (i == 0 || part.instance != list.parts[i - 1].instance) {
+      moved = deformed_positions(scene, instance);
+      for (glm::vec3& p : moved) p = shared::view_from_object(instances[i], p);
+    }
+    const uint32_t* const indices = scene.meshes[instance.mesh].indices.data() + 3 * size_t(part.mesh_triangle);
+    for (uint32_t k = 0; k < 3 * part.triangle_count; ++k) positions.push_back(moved[indices[k]]);
   }
   return positions;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "frame/draw_list.h"
+#include "frame/geometry_windows.h"
 #include "frame/samples.h"
 #include "scene/scene.h"
 #include "shared/gbuffer.h"
@@ -28,6 +29,7 @@ struct GridRequest {
 struct FrameShape {
   int width_px = 0, height_px = 0;
   int faces = 1;  ///< grids for each cascade of the light, 1 or shared::cube_faces
+  GeometryWindows geometry{};
 };
 
 /// Grids for each cascade that the light takes: one, or six around a point light, a spot of a half-angle above 60

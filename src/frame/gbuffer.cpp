@@ -44,16 +44,27 @@ gpu::Plan GBuffer::memory_needed(int width_px, int height_px, bool micro_quads) 
   return plan;
 }
 
+namespace {
+
+gpu::ProgramSpec resolve_spec(bool micro_quads, gpu::Defines defines) {
+  if (micro_quads) defines["MICRO_QUAD"] = "1";
+  return {"gbuffer resolve", {"frame/1_gbuffer_resolve.comp.glsl"}, defines};
+}
+
+}  // namespace
+
 std::vector<gpu::ProgramSpec> GBufferStage::program_specs() {
+  const gpu::Defines windows{{"POSITION_WINDOWS", "3"}, {"INDEX_WINDOWS", "2"}, {"WINDOW_WORDS", "192u"}};
   return {{"gbuffer", {"frame/1_gbuffer.vert.glsl", "frame/1_gbuffer.frag.glsl"}, {}},
-          {"gbuffer resolve", {"frame/1_gbuffer_resolve.comp.glsl"}, {}},
-          {"gbuffer resolve", {"frame/1_gbuffer_resolve.comp.glsl"}, {{"MICRO_QUAD", "1"}}}};
+          resolve_spec(false, {}),
+          resolve_spec(true, {}),
+          resolve_spec(true, windows)};
 }
 
 GBufferStage::GBufferStage() : draw_(program_specs()[0]) {}
 
-void GBufferStage::resize(int width_px, int height_px, bool micro_quads) {
-  resolve_ = gpu::Program(program_specs()[micro_quads ? 2 : 1]);
+void GBufferStage::resize(int width_px, int height_px, bool micro_quads, const GeometryWindows& geometry) {
+  resolve_ = gpu::Program(resolve_spec(micro_quads, geometry.defines()));
   gbuffer_ = GBuffer(width_px, height_px, micro_quads);
   framebuffer_ =
       gpu::Framebuffer("gbuffer", {&gbuffer_.id, &gbuffer_.albedo, &gbuffer_.shading_normal}, &gbuffer_.depth);

@@ -30,8 +30,8 @@ struct GBuffer {
 class GBufferStage {
  public:
   GBufferStage();
-  /// micro_quads: also find each pixel's micro-quad.
-  void resize(int width_px, int height_px, bool micro_quads);
+  /// micro_quads: also find each pixel's micro-quad. `geometry` is the scene's.
+  void resize(int width_px, int height_px, bool micro_quads, const GeometryWindows& geometry);
   /// Draws the scene and finds every pixel's receiver point. The camera's uniform block is bound.
   void render(const SceneBuffers& scene, gpu::StageTimers& timers);
   const GBuffer& gbuffer() const { return gbuffer_; }

@@ -11,6 +11,25 @@
 namespace izb {
 namespace {
 
+/// Whether any mesh has normals, texture coordinates; where none has, there is no buffer for them.
+template <typename T>
+bool any_has(const Scene& scene, std::vector<T> Mesh::*member) {
+  return std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                     [&](const Mesh& mesh) { return !(mesh.*member).empty(); });
+}
+
+bool any_deforms(const Scene& scene) {
+  return std::any_of(scene.instances.begin(), scene.instances.end(), [](const Instance& i) { return i.deforms(); });
+}
+
+uint64_t normal_count(const Scene& scene, const DrawList& list) {
+  return any_has(scene, &Mesh::normals) || any_deforms(scene) ? list.vertex_count : 0;
+}
+
+uint64_t uv_count(const Scene& scene, const DrawList& list) {
+  return any_has(scene, &Mesh::uvs) ? list.vertex_count : 0;
+}
+
 /// Joins one array of every mesh, straight from where it stands; a mesh without it gets zeros. `deformed`: also for the
 /// instances that deform, as at rest.
 template <typename T>
@@ -27,9 +46,10 @@ gpu::Buffer join(const std::string& label, const Scene& scene, const DrawList& l
   };
   for (size_t m = 0; m < scene.meshes.size(); ++m)
     if (list.first_vertex[m] != DrawList::no_vertex) copy(m, list.first_vertex[m]);
-  for (size_t i = 0; deformed && i < list.instances.size(); ++i)
-    if (const Instance& instance = scene.instances[list.instances[i]]; instance.deforms())
-      copy(instance.mesh, list.base_vertex[i]);
+  if (deformed)
+    for (const DrawPart& part : list.parts)
+      if (const Instance& instance = scene.instances[part.instance]; instance.deforms() && part.mesh_triangle == 0)
+        copy(instance.mesh, part.base_vertex);
   return all;
 }
 
@@ -48,10 +68,45 @@ int levels_of(const Texture& t) {
   return 1 + static_cast<int>(std::floor(std::log2(std::max(t.width_px, t.height_px))));
 }
 
+/// llvmpipe bins triangles faster than it rasterises them and keeps all that wait, a few hundred bytes each: of ten
+/// million that was 2 GB. Where that counts, drawing waits for what was drawn two steps before.
+class Throttle {
+ public:
+  explicit Throttle(bool active) : active_(active) {}
+  ~Throttle() {
+    for (const GLsync fence : fences_)
+      if (fence) glDeleteSync(fence);
+  }
+  Throttle(const Throttle&) = delete;
+  Throttle& operator=(const Throttle&) = delete;
+
+  void drawn(uint64_t triangles) {
+    waiting_ += triangles;
+    if (!active_ || waiting_ < step_triangles) return;
+    waiting_ = 0;
+    if (fences_[0]) {
+      glClientWaitSync(fences_[0], GL_SYNC_FLUSH_COMMANDS_BIT, GL_TIMEOUT_IGNORED);
+      glDeleteSync(fences_[0]);
+    }
+    fences_[0] = fences_[1];
+    fences_[1] = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    glFlush();
+  }
+
+ private:
+  static constexpr uint64_t step_triangles = largest_part_triangles;
+
+  const bool active_;
+  uint64_t waiting_ = 0;
+  GLsync fences_[2] = {nullptr, nullptr};
+};
+
 }  // namespace
 
 SceneBuffers::SceneBuffers(const Scene& scene, DrawList list, const gpu::Capabilities& capabilities)
-    : list_(std::move(list)) {
+    : list_(std::move(list)),
+      windows_(list_.vertex_count * sizeof(glm::vec3), list_.index_count * sizeof(uint32_t), capabilities),
+      throttled_(capabilities.software) {
   gpu::expect_room({{"scene '" + scene.name + "'", memory_needed(scene, list_)}}, gpu::memory_room(capabilities),
                    capabilities);
   upload_geometry(scene);
@@ -60,8 +115,8 @@ SceneBuffers::SceneBuffers(const Scene& scene, DrawList list, const gpu::Capabil
 
 void SceneBuffers::upload_geometry(const Scene& scene) {
   positions_ = join("positions", scene, list_, &Mesh::positions, false);
-  normals_ = join("normals", scene, list_, &Mesh::normals, false);
-  uvs_ = join("uvs", scene, list_, &Mesh::uvs, true);
+  if (normal_count(scene, list_) > 0) normals_ = join("normals", scene, list_, &Mesh::normals, false);
+  if (uv_count(scene, list_) > 0) uvs_ = join("uvs", scene, list_, &Mesh::uvs, true);
   deform_ = DeformStage(scene, list_);
   indices_ = gpu::Buffer("indices", list_.index_count * sizeof(uint32_t));
   for (size_t m = 0; m < scene.meshes.size(); ++m) {
@@ -69,11 +124,11 @@ void SceneBuffers::upload_geometry(const Scene& scene) {
     if (!part.empty())
       indices_.update(list_.first_index[m] * sizeof(uint32_t), part.size() * sizeof(uint32_t), part.data());
   }
-  std::vector<uint32_t> ids(list_.instances.size());
+  std::vector<uint32_t> ids(list_.parts.size());
   std::iota(ids.begin(), ids.end(), 0u);
   instance_ids_ = gpu::Buffer("instance ids", ids);
   commands_ = gpu::Buffer("draw commands", list_.commands);
-  instances_ = gpu::Buffer("instances", list_.instances.size() * sizeof(shared::InstanceFrame));
+  instances_ = gpu::Buffer("instances", list_.parts.size() * sizeof(shared::InstanceFrame));
   materials_ = gpu::Buffer("materials", make_materials(scene));
 
   vertex_array_ = gpu::VertexArray("scene");
@@ -85,8 +140,8 @@ void SceneBuffers::upload_geometry(const Scene& scene) {
     glEnableVertexArrayAttrib(va, attribute);
   };
   floats(ATTRIBUTE_POSITION, positions_, 3);
-  floats(ATTRIBUTE_NORMAL, normals_, 3);
-  floats(ATTRIBUTE_UV, uvs_, 2);
+  if (normals_) floats(ATTRIBUTE_NORMAL, normals_, 3);  // else GL's own value of an attribute that is off: zeros
+  if (uvs_) floats(ATTRIBUTE_UV, uvs_, 2);
   glVertexArrayVertexBuffer(va, ATTRIBUTE_INSTANCE, instance_ids_.name(), 0, sizeof(uint32_t));
   glVertexArrayAttribIFormat(va, ATTRIBUTE_INSTANCE, 1, GL_UNSIGNED_INT, 0);
   glVertexArrayAttribBinding(va, ATTRIBUTE_INSTANCE, ATTRIBUTE_INSTANCE);
@@ -121,31 +176,40 @@ void SceneBuffers::update(const Scene& scene, const std::vector<shared::Instance
 
 void SceneBuffers::bind_storage() const {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_INSTANCES, instances_.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_POSITIONS, positions_.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_INDICES, indices_.name());
+  windows_.bind(BIND_POSITIONS, BIND_MORE_POSITIONS, positions_, windows_.positions);
+  windows_.bind(BIND_INDICES, BIND_MORE_INDICES, indices_, windows_.indices);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_MATERIALS, materials_.name());
 }
 
-void SceneBuffers::draw_with_textures() const {
+void SceneBuffers::draw(bool with_textures) const {
   bind_storage();
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
+  Throttle throttle(throttled_);
+  const auto draw_commands = [](uint32_t first, uint32_t count) {
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+                                reinterpret_cast<const void*>(uintptr_t(first) * sizeof(DrawCommand)),
+                                static_cast<GLsizei>(count), 0);
+  };
+  if (!with_textures && !throttled_) return draw_commands(0, static_cast<uint32_t>(list_.commands.size()));
   for (const DrawGroup& group : list_.groups) {
-    const bool textured = group.texture >= 0;
-    glBindTextureUnit(UNIT_BASE_COLOR, textured ? textures_[group.texture].name() : white_.name());
-    glBindSampler(UNIT_BASE_COLOR, textured ? samplers_[group.texture].name() : 0);
-    const uintptr_t offset_bytes = group.first_command * sizeof(DrawCommand);
-    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset_bytes),
-                                static_cast<GLsizei>(group.command_count), 0);
+    if (with_textures) {
+      const bool textured = group.texture >= 0;
+      glBindTextureUnit(UNIT_BASE_COLOR, textured ? textures_[group.texture].name() : white_.name());
+      glBindSampler(UNIT_BASE_COLOR, textured ? samplers_[group.texture].name() : 0);
+    }
+    draw_commands(group.first_command, group.command_count);
+    throttle.drawn(group.triangle_count);
   }
-  glBindSampler(UNIT_BASE_COLOR, 0);
+  if (with_textures) glBindSampler(UNIT_BASE_COLOR, 0);
+}
+
+void SceneBuffers::draw_with_textures() const {
+  draw(true);
 }
 
 void SceneBuffers::draw_casters() const {
-  bind_storage();
-  glBindVertexArray(vertex_array_.name());
-  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
-  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, static_cast<GLsizei>(list_.commands.size()), 0);
+  draw(false);
 }
 
 size_t SceneBuffers::bytes() const {
@@ -161,13 +225,15 @@ gpu::Plan SceneBuffers::memory_needed(const Scene& scene, const DrawList& list) 
   const auto buffer = [&](const char* part, Kind kind, uint64_t count, uint64_t bytes_each) {
     plan.push_back(gpu::planned_buffer(part, kind, count * bytes_each, {}));
   };
-  buffer("positions", Kind::storage_buffer, list.vertex_count, sizeof(glm::vec3));
-  buffer("normals", Kind::other_buffer, list.vertex_count, sizeof(glm::vec3));
-  buffer("uvs", Kind::other_buffer, list.vertex_count, sizeof(glm::vec2));
-  buffer("indices", Kind::storage_buffer, list.index_count, sizeof(uint32_t));
-  buffer("instance ids", Kind::other_buffer, list.instances.size(), sizeof(uint32_t));
+  // Those that shaders read by number are bound in windows: no storage block needs to hold them whole.
+  buffer("positions", Kind::other_buffer, list.vertex_count, sizeof(glm::vec3));
+  if (const uint64_t normals = normal_count(scene, list))
+    buffer("normals", Kind::other_buffer, normals, sizeof(glm::vec3));
+  if (const uint64_t uvs = uv_count(scene, list)) buffer("uvs", Kind::other_buffer, uvs, sizeof(glm::vec2));
+  buffer("indices", Kind::other_buffer, list.index_count, sizeof(uint32_t));
+  buffer("instance ids", Kind::other_buffer, list.parts.size(), sizeof(uint32_t));
   buffer("draw commands", Kind::other_buffer, list.commands.size(), sizeof(DrawCommand));
-  buffer("instances", Kind::storage_buffer, list.instances.size(), sizeof(shared::InstanceFrame));
+  buffer("instances", Kind::storage_buffer, list.parts.size(), sizeof(shared::InstanceFrame));
   buffer("materials", Kind::storage_buffer, scene.materials.size(), sizeof(shared::MaterialFrame));
   for (gpu::Planned& part : DeformStage::memory_needed(scene, list)) plan.push_back(std::move(part));
   plan.push_back(gpu::planned_texture("white", GL_SRGB8_ALPHA8, 1, 1, {}));

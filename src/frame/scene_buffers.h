@@ -29,6 +29,8 @@ class SceneBuffers {
   /// Binds instances, positions, indices and materials as storage blocks.
   void bind_storage() const;
 
+  const GeometryWindows& windows() const { return windows_; }
+
   size_t bytes() const;
   /// What bytes() will be.
   static gpu::Plan memory_needed(const Scene& scene, const DrawList& list);
@@ -36,8 +38,11 @@ class SceneBuffers {
  private:
   void upload_geometry(const Scene& scene);
   void upload_textures(const Scene& scene);
+  void draw(bool with_textures) const;
 
   DrawList list_;
+  GeometryWindows windows_;
+  bool throttled_;
   gpu::Buffer positions_, normals_, uvs_, indices_, instance_ids_, commands_, instances_, materials_;
   DeformStage deform_;
   gpu::VertexArray vertex_array_;

@@ -26,10 +26,10 @@ int most_faces(const std::vector<Light>& lights, const GridRequest& grid) {
 
 }  // namespace
 
-Renderer::Renderer(const Scene& scene, const gpu::Capabilities& capabilities)
+Renderer::Renderer(const Scene& scene, const gpu::Capabilities& capabilities, uint32_t part_triangles)
     : scene_(scene),
       capabilities_(capabilities),
-      buffers_(scene, make_draw_list(scene), capabilities),
+      buffers_(scene, make_draw_list(scene, part_triangles), capabilities),
       camera_block_("camera", BIND_CAMERA),
       light_block_("light", BIND_LIGHT),
       shade_block_("shade", BIND_SHADE),
@@ -52,14 +52,14 @@ void Renderer::prepare(Technique& technique, int width_px, int height_px, const 
   common_ = {};
   common_.samples = technique.samples();
   const bool micro_quads = common_.samples.count() > 1;
-  gbuffer_.resize(width_px, height_px, micro_quads);
+  gbuffer_.resize(width_px, height_px, micro_quads, buffers_.windows());
   bounds_.prepare(micro_quads, technique.grid().cascades);
   samples_block_.set(make_sample_frame(common_.samples, technique.grid()));
   shade_.resize(width_px, height_px);
   visibility_.clear();
   for (size_t i = 0; i < lights.size(); ++i)
     visibility_.push_back({gpu::Texture("mask", GL_R32UI, width_px, height_px)});
-  technique.resize({width_px, height_px, most_faces(lights, technique.grid())});
+  technique.resize({width_px, height_px, most_faces(lights, technique.grid()), buffers_.windows()});
   common_.width_px = width_px;
   common_.height_px = height_px;
   common_.gbuffer = &gbuffer_.gbuffer();

@@ -13,7 +13,8 @@ class Renderer {
  public:
   /// The scene must outlive the renderer; it may be posed anew between frames. Throws izb::Error if the driver refuses
   /// a buffer or a program.
-  Renderer(const Scene& scene, const gpu::Capabilities& capabilities);
+  /// `part_triangles`, for tests: see make_draw_list().
+  Renderer(const Scene& scene, const gpu::Capabilities& capabilities, uint32_t part_triangles = largest_part_triangles);
 
   /// Fixes size, technique and its options, for frames with so many lights, each of which takes no more grids than
   /// these do. Throws izb::Error if the size is beyond the driver's limits, there is too little memory, or the

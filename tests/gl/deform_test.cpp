@@ -134,13 +134,12 @@ TEST(Deform, NormalsFollow) {
   SceneBuffers buffers(scene, make_draw_list(scene), capabilities());
   buffers.update(scene, make_instance_frames(camera, scene, buffers.draw_list()));
   const DrawList& list = buffers.draw_list();
-  for (size_t i = 0; i < list.instances.size(); ++i) {
-    const Instance& instance = scene.instances[list.instances[i]];
+  for (const DrawPart& part : list.parts) {
+    const Instance& instance = scene.instances[part.instance];
     if (!instance.deforms()) continue;
     const Mesh& mesh = scene.meshes[instance.mesh];
     std::vector<glm::vec3> found(mesh.normals.size());
-    buffers.normals().read_bytes(list.base_vertex[i] * sizeof(glm::vec3), found.size() * sizeof(glm::vec3),
-                                 found.data());
+    buffers.normals().read_bytes(part.base_vertex * sizeof(glm::vec3), found.size() * sizeof(glm::vec3), found.data());
     for (size_t v = 0; v < found.size(); ++v) {
       glm::dvec3 n(mesh.normals[v]);
       for (size_t t = 0; t < instance.morph_weights.size(); ++t)
@@ -152,7 +151,8 @@ TEST(Deform, NormalsFollow) {
           blend += double(mesh.weights[k]) * glm::dmat3(scene.skins[0].world_from_bind[mesh.joints[k]]);
         n = glm::inverse(glm::transpose(blend)) * n;
       }
-      EXPECT_NEAR(glm::dot(glm::normalize(n), glm::normalize(glm::dvec3(found[v]))), 1.0, 1e-5) << i << " " << v;
+      EXPECT_NEAR(glm::dot(glm::normalize(n), glm::normalize(glm::dvec3(found[v]))), 1.0, 1e-5)
+          << part.instance << " " << v;
     }
   }
 }

@@ -142,6 +142,8 @@ const std::map<std::string, Block> blocks{
        FIELD("joints[0]", JointFrame, row_z)}}},
     {"PositionBlock", {sizeof(float), true, {{"positions[0]", {0, GL_FLOAT}}}}},
     {"IndexBlock", {sizeof(uint), true, {{"indices[0]", {0, GL_UNSIGNED_INT}}}}},
+    {"MorePositionBlock", {sizeof(float), true, {{"MorePositionBlock.positions[0]", {0, GL_FLOAT}}}}},
+    {"MoreIndexBlock", {sizeof(uint), true, {{"MoreIndexBlock.indices[0]", {0, GL_UNSIGNED_INT}}}}},
 };
 
 GLint property(GLuint program, GLenum interface, GLuint index, GLenum name) {
@@ -162,12 +164,18 @@ GLuint resource_count(GLuint program, GLenum interface) {
   return static_cast<GLuint>(count);
 }
 
+/// Without the number of an array's element.
+std::string block_name_of(GLuint program, GLenum interface, GLuint index) {
+  const std::string name = resource_name(program, interface, index);
+  return name.substr(0, name.find('['));
+}
+
 /// Compares one interface of a program with the table; notes the fields that it met.
 void compare(GLuint program, bool storage, std::map<std::string, std::set<std::string>>& met) {
   const GLenum block_interface = storage ? GL_SHADER_STORAGE_BLOCK : GL_UNIFORM_BLOCK;
   const GLenum field_interface = storage ? GL_BUFFER_VARIABLE : GL_UNIFORM;
   for (GLuint i = 0; i < resource_count(program, block_interface); ++i) {
-    const std::string name = resource_name(program, block_interface, i);
+    const std::string name = block_name_of(program, block_interface, i);
     const auto block = blocks.find(name);
     ASSERT_NE(block, blocks.end()) << "block " << name << " is not in the table of this test";
     if (!block->second.array) {
@@ -177,7 +185,7 @@ void compare(GLuint program, bool storage, std::map<std::string, std::set<std::s
   for (GLuint i = 0; i < resource_count(program, field_interface); ++i) {
     const GLint block_index = property(program, field_interface, i, GL_BLOCK_INDEX);
     if (block_index < 0) continue;  // a sampler or image
-    const std::string block_name = resource_name(program, block_interface, static_cast<GLuint>(block_index));
+    const std::string block_name = block_name_of(program, block_interface, static_cast<GLuint>(block_index));
     const Block& block = blocks.at(block_name);
     std::string name = resource_name(program, field_interface, i);
     // A uniform block names every element of an array of structs; the table has the first.
@@ -193,7 +201,7 @@ void compare(GLuint program, bool storage, std::map<std::string, std::set<std::s
     const Field seen{offset, property(program, field_interface, i, GL_TYPE)};
     EXPECT_EQ(seen, field->second) << block_name << ": " << name << " of element " << element;
     if (storage && block.array) {
-      const bool of_structs = name.find('.') != std::string::npos;
+      const bool of_structs = name.find("].") != std::string::npos;
       const GLenum stride = of_structs ? GL_TOP_LEVEL_ARRAY_STRIDE : GL_ARRAY_STRIDE;
       EXPECT_EQ(size_t(property(program, field_interface, i, stride)), block.bytes) << block_name;
     }

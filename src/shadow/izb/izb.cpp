@@ -34,6 +34,7 @@ std::string Izb::missing(const gpu::Capabilities& capabilities) const {
 void Izb::resize(const FrameShape& shape) {
   built_ = settings_;
   built_.pair_capacity = settings_.pairs(shape.width_px, shape.height_px);
+  built_.geometry = shape.geometry.defines();
   const IzbSettings& s = built_;
   const int width_px = shape.width_px, height_px = shape.height_px, layers = s.cascades * shape.faces;
   shape_ = shape;

@@ -105,6 +105,7 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
       return hardware("COUNT");
     case IzbProgram::settle:
       walk_defines();
+      defines.insert(s.geometry.begin(), s.geometry.end());
       return {"izb visibility settle", {folder + "5_visibility_settle.comp.glsl"}, defines};
     default:
       return {"izb visibility overflow",
@@ -150,6 +151,9 @@ std::vector<gpu::ProgramSpec> izb_program_specs() {
     settings = IzbSettings();
   }
   settings.insertion_stride = 7;
+  add(settings);
+  settings = IzbSettings();
+  settings.geometry = {{"POSITION_WINDOWS", "2"}, {"INDEX_WINDOWS", "3"}, {"WINDOW_WORDS", "192u"}};
   add(settings);
   return all;
 }

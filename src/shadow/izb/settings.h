@@ -7,6 +7,7 @@
 
 #include "base/options.h"
 #include "frame/samples.h"
+#include "gpu/glsl_front_end.h"
 
 namespace izb {
 
@@ -23,6 +24,8 @@ struct IzbSettings {
   /// No option, for tests: the order of insertion is n * stride modulo the number of pixels, to which the stride is
   /// coprime. Nothing but the order within the lists may depend on it.
   int insertion_stride = 1;
+  /// No option: how the scene's buffers are bound.
+  gpu::Defines geometry;
 
   /// Declares every option, bound to this object.
   OptionSet options();
