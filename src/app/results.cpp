@@ -8,6 +8,7 @@
 
 #include "base/json_text.h"
 #include "base/log.h"
+#include "base/machine_memory.h"
 #include "base/sha256.h"
 #include "base/version.h"
 #include "frame/read_back.h"
@@ -75,7 +76,9 @@ nlohmann::json provenance(const Session& session, const FrameOptions& options, T
   facts["options"] = copy.options().to_json();
   facts["options"].update(technique.options().to_json());
   facts["technique"] = technique.info().name;
-  facts["scene"] = {{"file", scene_path}, {"triangles", session.scene.triangle_count()}};
+  facts["scene"] = {{"file", scene_path},
+                    {"triangles", session.scene.triangle_count()},
+                    {"geometry_bytes", session.scene.geometry_bytes()}};
   facts["timing"] = session.timers.method();
   return facts;
 }
@@ -161,7 +164,10 @@ nlohmann::json counts_json(const Counts& counts) {
 }
 
 nlohmann::json memory_json(const Renderer& renderer) {
-  nlohmann::json json{{"memory_bytes", counts_json(renderer.memory())}, {"memory_available_bytes", nullptr}};
+  nlohmann::json json{{"memory_bytes", counts_json(renderer.memory())},
+                      {"memory_available_bytes", nullptr},
+                      {"memory_peak_bytes", nullptr}};
+  if (const auto peak = peak_process_memory()) json["memory_peak_bytes"] = *peak;
   if (renderer.room().bytes) json["memory_available_bytes"] = *renderer.room().bytes;
   return json;
 }

@@ -52,8 +52,14 @@ Gl::Gl(const std::string& context_name)
 namespace {
 
 Scene load_with_progress(const std::string& path, bool plays) {
-  const Progress progress("loading " + path, 0);
-  return load_gltf(path, !plays);
+  constexpr uint64_t steps = 1000;
+  Progress progress("loading " + path, steps);
+  uint64_t done = 0;
+  return load_gltf(path, !plays, [&](double share) {
+    const auto now = static_cast<uint64_t>(share * steps);
+    progress.advance(now - done);
+    done = now;
+  });
 }
 
 /// What plays: a camera path alone may have moments, too.

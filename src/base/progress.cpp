@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 namespace izb {
 
 namespace {
@@ -11,6 +13,7 @@ namespace {
 /// Work that advances draws by itself, at most every `shortest`; the thread draws when that has not happened for
 /// `longest`.
 constexpr std::chrono::milliseconds shortest(100), longest(500);
+constexpr size_t bar_cells = 20;
 
 }  // namespace
 
@@ -47,8 +50,11 @@ void Progress::draw(Clock::time_point now) {
   next_draw_ = now + shortest;
   drawn_ = true;
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  const std::string amount =
-      total_ == 0 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} %", 100.0 * double(done_) / double(total_));
+  const double share = total_ == 0 ? 0.0 : std::min(double(done_) / double(total_), 1.0);
+  const auto full = static_cast<size_t>(share * bar_cells);
+  const std::string amount = total_ == 0 ? fmt::format("{:.0f} s", seconds)
+                                         : fmt::format("[{}{}] {:.0f} %", std::string(full, '#'),
+                                                       std::string(bar_cells - full, '-'), 100.0 * share);
   std::fputs(fmt::format("\r{}: {}\x1b[K", what_, amount).c_str(), stream_);
   std::fflush(stream_);
 }

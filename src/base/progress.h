@@ -12,7 +12,7 @@
 
 namespace izb {
 
-/// Draws "what: 42 %" on one line that is rewritten in place, from one second after the start on, and clears
+/// Draws "what: [####----] 50 %" on one line that is rewritten in place, from one second after the start on, and clears
 /// it when destroyed. Where the amount of work is unknown, or one step of it takes long, a thread keeps it up to date.
 /// Draws nothing if the stream is no terminal.
 class Progress {

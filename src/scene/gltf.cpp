@@ -40,15 +40,22 @@ void load_skins(const tinygltf::Model& model, const NodeHierarchy& nodes, Scene&
   }
 }
 
+/// Of the time that loading takes, about.
+constexpr double share_of_reading = 0.5;
+
 /// Turns the nodes' meshes into meshes and instances. A primitive is loaded once, however many nodes show it.
 class InstanceLoader {
  public:
-  InstanceLoader(const tinygltf::Model& model, const NodeHierarchy& nodes, bool stays, Scene& scene)
-      : model_(model), nodes_(nodes), stays_(stays), scene_(scene) {}
+  InstanceLoader(const tinygltf::Model& model, const NodeHierarchy& nodes, bool stays, const LoadProgress& progress,
+                 Scene& scene)
+      : model_(model), nodes_(nodes), stays_(stays), progress_(progress), scene_(scene) {}
 
   void run() {
-    for (const int i : nodes_.in_scene)
-      if (model_.nodes[static_cast<size_t>(i)].mesh >= 0) add_node(static_cast<size_t>(i));
+    for (size_t k = 0; k < nodes_.in_scene.size(); ++k) {
+      const auto node = static_cast<size_t>(nodes_.in_scene[k]);
+      if (model_.nodes[node].mesh >= 0) add_node(node);
+      report(double(k + 1) / double(nodes_.in_scene.size()));
+    }
     tally_.describe(scene_.ignored, stays_);
     if (scene_.triangle_count() == 0)
       fail("its scene holds no triangle{}",
@@ -57,6 +64,10 @@ class InstanceLoader {
 
  private:
   static constexpr int no_mesh = -1;
+
+  void report(double share) const {
+    if (progress_) progress_(share_of_reading + (1.0 - share_of_reading) * share);
+  }
 
   void add_node(size_t node_index) {
     const tinygltf::Node& node = model_.nodes[node_index];
@@ -99,6 +110,7 @@ class InstanceLoader {
   const tinygltf::Model& model_;
   const NodeHierarchy& nodes_;
   const bool stays_;
+  const LoadProgress& progress_;
   Scene& scene_;
   MeshTally tally_;
   std::map<std::pair<int, int>, int> shared_;  ///< mesh and primitive of the file → mesh of the scene
@@ -123,15 +135,18 @@ void describe_extensions(const tinygltf::Model& model, Scene& scene) {
   }
 }
 
-Scene load(const std::filesystem::path& path, bool stays) {
-  tinygltf::Model model = read_gltf_document(path);
+Scene load(const std::filesystem::path& path, bool stays, const LoadProgress& progress) {
+  tinygltf::Model model = read_gltf_document(path, [&](double share) {
+    if (progress) progress(0.5 * share_of_reading * share);  // the other half is parsing
+  });
+  if (progress) progress(share_of_reading);
   Scene scene;
   scene.name = path.stem().string();
   const NodeHierarchy nodes = load_nodes(model, scene);
   load_materials(model, scene);
   load_animations(model, nodes, scene);
   load_skins(model, nodes, scene);
-  InstanceLoader(model, nodes, stays, scene).run();
+  InstanceLoader(model, nodes, stays, progress, scene).run();
   add_default_material(scene);
   load_cameras(model, nodes, scene);
   load_lights(model, nodes, scene);
@@ -145,9 +160,9 @@ Scene load(const std::filesystem::path& path, bool stays) {
 
 }  // namespace
 
-Scene load_gltf(const std::filesystem::path& path, bool stays) {
+Scene load_gltf(const std::filesystem::path& path, bool stays, const LoadProgress& progress) {
   try {
-    return load(path, stays);
+    return load(path, stays, progress);
   } catch (const Error& e) {
     fail("cannot load '{}': {}", path.string(), e.what());
   } catch (const std::bad_alloc&) {

@@ -35,7 +35,7 @@ using nlohmann::json;
 constexpr size_t whole_file = static_cast<size_t>(-1);
 
 /// The first `limit` bytes of a file. Throws izb::Error with the cause.
-Bytes read_bytes(const fs::path& path, size_t limit = whole_file) {
+Bytes read_bytes(const fs::path& path, size_t limit = whole_file, const std::function<void(double)>& read = {}) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) fail("there is no such file");
@@ -47,8 +47,13 @@ Bytes read_bytes(const fs::path& path, size_t limit = whole_file) {
   const uintmax_t size = fs::file_size(path, error);
   if (error) fail("its size cannot be read ({})", error.message());
   Bytes bytes(std::min<uintmax_t>(size, limit));
-  if (std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
-    fail("it cannot be read ({})", std::strerror(errno));
+  constexpr size_t step = size_t(16) << 20;
+  for (size_t at = 0; at < bytes.size(); at += step) {
+    const size_t count = std::min(step, bytes.size() - at);
+    if (std::fread(bytes.data() + at, 1, count, file.get()) != count)
+      fail("it cannot be read ({})", std::strerror(errno));
+    if (read) read(double(at + count) / double(bytes.size()));
+  }
   return bytes;
 }
 
@@ -246,8 +251,8 @@ std::string first_sentence(const std::string& text) {
 
 }  // namespace
 
-tinygltf::Model read_gltf_document(const fs::path& path) {
-  Bytes bytes = read_bytes(path);
+tinygltf::Model read_gltf_document(const fs::path& path, const std::function<void(double share)>& read) {
+  Bytes bytes = read_bytes(path, whole_file, read);
   if (bytes.empty()) fail("it is empty");
   if (bytes.size() > 0xffffffffu) fail("it is larger than 4 GiB");
   const bool glb = is_glb(bytes);

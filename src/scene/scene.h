@@ -32,6 +32,12 @@ struct Mesh {
   std::vector<float> weights;    ///< likewise, of one vertex with the sum 1
 
   size_t triangle_count() const { return indices.size() / 3; }
+  size_t bytes() const {  ///< of all arrays
+    size_t n = (positions.size() + normals.size()) * sizeof(glm::vec3) + uvs.size() * sizeof(glm::vec2) +
+               indices.size() * sizeof(uint32_t) + joints.size() * (sizeof(uint16_t) + sizeof(float));
+    for (const MorphTarget& t : targets) n += (t.positions.size() + t.normals.size()) * sizeof(glm::vec3);
+    return n;
+  }
 };
 
 /// One placement of a mesh. What pose() changes is as the scene stands now.
@@ -160,6 +166,11 @@ struct Scene {
   size_t triangle_count() const {  ///< instances counted
     size_t n = 0;
     for (const Instance& i : instances) n += meshes[i.mesh].triangle_count();
+    return n;
+  }
+  size_t geometry_bytes() const {  ///< each mesh once, as it stands here, and the instances
+    size_t n = instances.size() * sizeof(Instance);
+    for (const Mesh& m : meshes) n += m.bytes();
     return n;
   }
 };

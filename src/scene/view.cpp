@@ -42,8 +42,14 @@ Vector numbers(const json& entry, const char* key, const std::string& where) {
 
 Bounds world_bounds(const Scene& scene) {
   Bounds bounds;
-  for (const Instance& instance : scene.instances)
-    for (const glm::dvec3& p : posed_positions_ws(scene, instance)) bounds.add(p);
+  for (const Instance& instance : scene.instances) {
+    if (instance.deforms()) {
+      for (const glm::dvec3& p : posed_positions_ws(scene, instance)) bounds.add(p);
+    } else {
+      for (const glm::vec3& p : scene.meshes[instance.mesh].positions)
+        bounds.add(glm::dvec3(instance.world_from_object * glm::dvec4(p, 1.0)));
+    }
+  }
   return bounds;
 }
 

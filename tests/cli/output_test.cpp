@@ -167,6 +167,8 @@ TEST_F(Output, MemoryIsPrintedAndInTheJson) {
   EXPECT_EQ(j["memory_bytes"]["gbuffer"], 64 * 36 * (40 + 16));  // with the micro-quad
   EXPECT_TRUE(std::regex_search(outcome.out, std::regex("\nmemory: gbuffer 0\\.1 MB, izb .* MB, scene .* MB; .* MB")))
       << outcome.out;
+  EXPECT_GT(j["memory_peak_bytes"], 10'000'000);
+  EXPECT_GT(j["memory_peak_bytes"], j["scene"]["geometry_bytes"]);
   if (!j["memory_available_bytes"].is_null()) {
     EXPECT_TRUE(outcome.prints(" MB available")) << outcome.out;
   }

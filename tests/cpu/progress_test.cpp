@@ -49,10 +49,10 @@ TEST(Progress, AppearsAfterASecondAndClearsItsLine) {
       });
     }
     for (std::thread& thread : threads) thread.join();
-    EXPECT_NE(pty.text().find("\rrays: 1"), std::string::npos);
+    EXPECT_NE(pty.text().find("\rrays: [##------------------] 1"), std::string::npos);
     std::this_thread::sleep_for(150ms);
     progress.advance(2);
-    EXPECT_EQ(pty.text(), "\rrays: 25 %\x1b[K");
+    EXPECT_EQ(pty.text(), "\rrays: [#####---------------] 25 %\x1b[K");
   }
   EXPECT_EQ(pty.text(), "\r\x1b[K");
 }
@@ -66,7 +66,7 @@ TEST(Progress, IsDrawnWithoutAnyAdvance) {
     std::this_thread::sleep_for(1300ms);
     const std::string text = pty.text();
     EXPECT_NE(text.find("\rloading: 1 s"), std::string::npos) << text;
-    EXPECT_NE(text.find("\rsettling: 0 %"), std::string::npos) << text;
+    EXPECT_NE(text.find("\rsettling: [--------------------] 0 %"), std::string::npos) << text;
     std::this_thread::sleep_for(1000ms);
     EXPECT_NE(pty.text().find("\rloading: 2 s"), std::string::npos);
   }
