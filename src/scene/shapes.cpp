@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/portable_math.h"
+
 namespace izb::shapes {
 namespace {
 
@@ -84,7 +86,8 @@ uint32_t add_ring_vertices(Mesh& mesh, const dvec3& center, const dvec3& side, c
   const uint32_t first = static_cast<uint32_t>(mesh.positions.size());
   for (int i = 0; i < sides; ++i) {
     const double angle = two_pi * i / sides;
-    const dvec3 normal = std::cos(angle) * side + std::sin(angle) * other;
+    const dvec2 on = on_circle(angle);
+    const dvec3 normal = on.x * side + on.y * other;
     add_vertex(mesh, center + radius * normal, normal);
   }
   return first;
@@ -124,7 +127,9 @@ void add_tube(Mesh& mesh, std::span<const dvec3> path, std::span<const double> r
     const dvec3 after = i + 1 < count ? glm::normalize(path[i + 1] - path[i]) : dvec3{0.0};
     const dvec3 tangent = glm::normalize(before + after);
     // Carrying the side direction along keeps the tube from twisting.
-    side = i == 0 ? any_perpendicular(tangent) : glm::normalize(side - glm::dot(side, tangent) * tangent);
+    const dvec3 carried = side - glm::dot(side, tangent) * tangent;
+    const bool lost = i == 0 || glm::dot(carried, carried) < 1e-6;  // at a sharp turn into the side's own direction
+    side = lost ? any_perpendicular(tangent) : glm::normalize(carried);
     const uint32_t ring = add_ring_vertices(mesh, path[i], side, tangent, radii[i], sides);
     if (i == 0) add_cap(mesh, ring, sides, -tangent, true);
     if (i + 1 == count) add_cap(mesh, ring, sides, tangent, false);
@@ -146,7 +151,8 @@ void add_ring(Mesh& mesh, const dvec3& center, const dvec3& axis, double ring_ra
   const dvec3 u = any_perpendicular(axis), v = glm::cross(axis, u);
   const auto add_section = [&](int i) {
     const double angle = two_pi * i / segments;
-    const dvec3 outward = std::cos(angle) * u + std::sin(angle) * v;
+    const dvec2 on = on_circle(angle);
+    const dvec3 outward = on.x * u + on.y * v;
     return add_ring_vertices(mesh, center + ring_radius * outward, outward, glm::cross(axis, outward), tube_radius,
                              sides);
   };
@@ -174,7 +180,7 @@ void add_lathe(Mesh& mesh, std::span<const dvec2> profile, int sides) {
     const uint32_t ring = static_cast<uint32_t>(mesh.positions.size());
     for (int k = 0; k < sides; ++k) {
       const double angle = two_pi * (pole ? k + 0.5 : k) / sides;
-      const dvec2 around{std::sin(angle), std::cos(angle)};
+      const dvec2 around{sine(angle), cosine(angle)};
       const dvec2 p = profile[i];
       // A pole's own normal is the axis; averaged edges would tilt it.
       const dvec3 n = pole ? dvec3{0, normal.y, 0} : dvec3{normal.x * around.x, normal.y, normal.x * around.y};

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Sines, cosines and the like with the same bits on every machine: the C library's may differ in the last one. Only
+// operations that IEEE 754 rounds correctly are used (and no contraction, which the build turns off).
+#pragma once
+#include <cmath>
+#include <glm/glm.hpp>
+#include <numbers>
+
+namespace izb {
+
+namespace portable {
+
+/// sin and cos of x in [-pi/4, pi/4] by their Taylor series; the first term left out is below 1e-19.
+inline double sine_near_0(double x) {
+  const double x2 = x * x;
+  double term = 1.0, sum = 1.0;
+  for (int n = 2; n <= 18; n += 2) {
+    term *= -x2 / (n * (n + 1));
+    sum += term;
+  }
+  return x * sum;
+}
+
+inline double cosine_near_0(double x) {
+  const double x2 = x * x;
+  double term = 1.0, sum = 1.0;
+  for (int n = 1; n <= 19; n += 2) {
+    term *= -x2 / (n * (n + 1));
+    sum += term;
+  }
+  return sum;
+}
+
+}  // namespace portable
+
+/// (cos x, sin x); for |x| up to some 10^5 within a few units in the last place.
+inline glm::dvec2 on_circle(double x) {
+  // pi/2 in two parts, the first with so few bits that its multiples are exact.
+  constexpr double half_pi_high = 1.57079632673412561417, half_pi_low = 6.07710050650619224932e-11;
+  const double quarter = std::floor(x / (0.5 * std::numbers::pi) + 0.5);
+  const double rest = (x - quarter * half_pi_high) - quarter * half_pi_low;
+  const double s = portable::sine_near_0(rest), c = portable::cosine_near_0(rest);
+  const double turn = quarter - 4.0 * std::floor(quarter / 4.0);
+  if (turn == 0.0) return {c, s};
+  if (turn == 1.0) return {-s, c};
+  if (turn == 2.0) return {-c, -s};
+  return {s, -c};
+}
+
+inline double cosine(double x) {
+  return on_circle(x).x;
+}
+
+inline double sine(double x) {
+  return on_circle(x).y;
+}
+
+}  // namespace izb
