@@ -3,13 +3,38 @@
 
 #include <array>
 
+#include "scene/procedural/fit.h"
+#include "scene/procedural/scenes.h"
+
 namespace izb {
+namespace {
+
+using namespace procedural;
+
+/// Each scene's own function fits itself, so that the table stays plain data.
+template <void (*build)(Builder&)>
+Scene fit(const char* name, uint32_t seed, size_t triangles, size_t default_triangles) {
+  return fitted(name, build, seed, triangles, default_triangles);
+}
+
+Scene garden(const char*, uint32_t seed, size_t, size_t) {
+  return make_garden(seed);
+}
+
+constexpr std::array table{
+    Procedural{"garden", "a walled garden at sunset: wires, spokes, grass, lattices, an urn, long grazing shadows",
+               278'000, false, garden},
+    Procedural{"villa", "a house by a pool: columns, balusters, louvres and furnished rooms", 89'000, true,
+               fit<build_villa>},
+};
+
+}  // namespace
+
+Scene Procedural::make(uint32_t seed, size_t wanted) const {
+  return make_sized(name, seed, wanted == 0 ? triangles : wanted, triangles);
+}
 
 std::span<const Procedural> procedurals() {
-  static constexpr std::array table{
-      Procedural{"garden", "a walled garden at sunset: wires, spokes, grass, lattices, an urn, long grazing shadows",
-                 make_garden},
-  };
   return table;
 }
 

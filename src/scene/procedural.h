@@ -17,8 +17,13 @@ Scene make_garden(uint32_t seed);
 /// One entry of the table of procedural scenes.
 struct Procedural {
   const char* name;
-  const char* help;  ///< one line
-  Scene (*make)(uint32_t seed);
+  const char* help;    ///< one line
+  size_t triangles;    ///< by default, within 2 %
+  bool any_triangles;  ///< whether another number can be asked for
+  Scene (*make_sized)(const char* name, uint32_t seed, size_t triangles, size_t default_triangles);
+
+  /// The scene with about `wanted` triangles, 0: as many as by default.
+  Scene make(uint32_t seed, size_t wanted = 0) const;
 };
 
 /// Every procedural scene there is.

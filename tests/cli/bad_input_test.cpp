@@ -235,6 +235,19 @@ TEST_F(BadInput, CommandsThatAreNotComplete) {
   }
 }
 
+TEST_F(BadInput, ScenesOfOtherSizes) {
+  for (const auto& [words, text] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"scene", "moon", "-o", "x.glb"}, "moon"},
+           {{"scene", "villa", "-o", "x.glb", "--triangles", "-5"}, "--triangles"},
+           {{"scene", "villa", "-o", "x.glb", "--triangles", "many"}, "--triangles"},
+           {{"scene", "garden", "-o", "x.glb", "--triangles", "5000"}, "no other number"}}) {
+    const Outcome outcome = izb::test::izb(words);
+    EXPECT_EQ(outcome.code, 2) << testing::PrintToString(words) << outcome.err;
+    EXPECT_EQ(outcome.error_lines().size(), 1u) << outcome.err;
+    EXPECT_TRUE(outcome.says(text)) << outcome.err;
+  }
+}
+
 TEST_F(BadInput, SizeBeyondTheDrivers) {
   expect_refused(render(good(), {"--size", "1000000x18"}), "1000000x18", "pixels");
 }

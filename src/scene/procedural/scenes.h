@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// The procedural scenes, one file each. All have metres, y up, a fixed camera "main", an animated one "path" and a
+// light.
+#pragma once
+#include "scene/procedural/builder.h"
+
+namespace izb::procedural {
+
+void build_villa(Builder& b);
+
+}  // namespace izb::procedural
