@@ -26,6 +26,8 @@ constexpr std::array table{
                278'000, false, garden},
     Procedural{"villa", "a house by a pool: columns, balusters, louvres and furnished rooms", 89'000, true,
                fit<build_villa>},
+    Procedural{"town", "a walled town under its citadel: crenels, gables, windows, narrow streets", 613'000, true,
+               fit<build_town>},
 };
 
 }  // namespace

@@ -7,5 +7,6 @@
 namespace izb::procedural {
 
 void build_villa(Builder& b);
+void build_town(Builder& b);
 
 }  // namespace izb::procedural
