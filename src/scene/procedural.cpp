@@ -28,6 +28,8 @@ constexpr std::array table{
                fit<build_villa>},
     Procedural{"town", "a walled town under its citadel: crenels, gables, windows, narrow streets", 613'000, true,
                fit<build_town>},
+    Procedural{"terrain", "mountains cut by water under a low sun, woods in the valleys", 1'500'000, true,
+               fit<build_terrain>},
 };
 
 }  // namespace
