@@ -30,6 +30,8 @@ constexpr std::array table{
                fit<build_town>},
     Procedural{"terrain", "mountains cut by water under a low sun, woods in the valleys", 1'500'000, true,
                fit<build_terrain>},
+    Procedural{"hairball", "a ball of long curled threads, after Laine and Karras", 2'900'000, true,
+               fit<build_hairball>},
 };
 
 }  // namespace

@@ -9,5 +9,6 @@ namespace izb::procedural {
 void build_villa(Builder& b);
 void build_town(Builder& b);
 void build_terrain(Builder& b);
+void build_hairball(Builder& b);
 
 }  // namespace izb::procedural
