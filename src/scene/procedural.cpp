@@ -32,6 +32,8 @@ constexpr std::array table{
                fit<build_terrain>},
     Procedural{"hairball", "a ball of long curled threads, after Laine and Karras", 2'900'000, true,
                fit<build_hairball>},
+    Procedural{"furball", "4000 hairs of 12 segments on a ball before a wall, after Lefohn et al. 2007", 284'000, true,
+               fit<build_furball>},
 };
 
 }  // namespace

@@ -10,5 +10,6 @@ void build_villa(Builder& b);
 void build_town(Builder& b);
 void build_terrain(Builder& b);
 void build_hairball(Builder& b);
+void build_furball(Builder& b);
 
 }  // namespace izb::procedural
