@@ -34,6 +34,8 @@ constexpr std::array table{
                fit<build_hairball>},
     Procedural{"furball", "4000 hairs of 12 segments on a ball before a wall, after Lefohn et al. 2007", 284'000, true,
                fit<build_furball>},
+    Procedural{"grass", "a meadow seen from low down: blades, flowers, stones, a fence", 1'000'000, true,
+               fit<build_grass>},
 };
 
 }  // namespace

@@ -11,5 +11,6 @@ void build_town(Builder& b);
 void build_terrain(Builder& b);
 void build_hairball(Builder& b);
 void build_furball(Builder& b);
+void build_grass(Builder& b);
 
 }  // namespace izb::procedural
