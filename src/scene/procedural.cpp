@@ -36,6 +36,8 @@ constexpr std::array table{
                fit<build_furball>},
     Procedural{"grass", "a meadow seen from low down: blades, flowers, stones, a fence", 1'000'000, true,
                fit<build_grass>},
+    Procedural{"powerplant", "a coal power plant: steel frame, pipes, stairs and grating", 12'300'000, true,
+               fit<build_powerplant>},
 };
 
 }  // namespace
