@@ -38,6 +38,8 @@ constexpr std::array table{
                fit<build_grass>},
     Procedural{"powerplant", "a coal power plant: steel frame, pipes, stairs and grating", 12'300'000, true,
                fit<build_powerplant>},
+    Procedural{"tentacles", "sea anemones whose arms writhe: thin, curled, skinned", 3'800'000, true,
+               fit<build_tentacles>},
 };
 
 }  // namespace
