@@ -40,6 +40,8 @@ constexpr std::array table{
                fit<build_powerplant>},
     Procedural{"tentacles", "sea anemones whose arms writhe: thin, curled, skinned", 3'800'000, true,
                fit<build_tentacles>},
+    Procedural{"plane", "a racing airplane after the GeeBee: sheets, slivers, rivets, fins", 11'700'000, true,
+               fit<build_plane>},
 };
 
 }  // namespace

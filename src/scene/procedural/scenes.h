@@ -11,6 +11,7 @@ void build_town(Builder& b);
 void build_terrain(Builder& b);
 void build_hairball(Builder& b);
 void build_tentacles(Builder& b);
+void build_plane(Builder& b);
 void build_powerplant(Builder& b);
 void build_furball(Builder& b);
 void build_grass(Builder& b);
