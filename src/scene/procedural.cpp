@@ -42,6 +42,7 @@ constexpr std::array table{
                fit<build_tentacles>},
     Procedural{"plane", "a racing airplane after the GeeBee: sheets, slivers, rivets, fins", 11'700'000, true,
                fit<build_plane>},
+    Procedural{"character", "a man who waves in a room: skinned, lit by one lamp", 120'000, true, fit<build_character>},
 };
 
 }  // namespace

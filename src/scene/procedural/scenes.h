@@ -14,6 +14,7 @@ void build_tentacles(Builder& b);
 void build_plane(Builder& b);
 void build_powerplant(Builder& b);
 void build_furball(Builder& b);
+void build_character(Builder& b);
 void build_grass(Builder& b);
 
 }  // namespace izb::procedural
