@@ -60,8 +60,10 @@ TEST(Help, ValidateIsComplete) {
 TEST(Help, InfoAndSceneAreComplete) {
   expect_options(help_of({"info"}), {"--context"});
   const std::string scene = help_of({"scene"});
-  expect_options(scene, {"--output", "--seed"});
-  EXPECT_NE(scene.find("garden"), std::string::npos);
+  expect_options(scene, {"--output", "--seed", "--triangles"});
+  for (const char* name : {"garden", "villa", "town", "terrain", "hairball", "tentacles", "plane", "powerplant",
+                           "furball", "character", "grass", "12300000 triangles"})
+    EXPECT_NE(scene.find(name), std::string::npos) << name;
 }
 
 TEST(Help, EachTechniqueListsItsOwnOptions) {
