@@ -35,6 +35,8 @@ struct Query {
 #endif
   const uint32_t* own_triangle = nullptr;  // shadow rays: indexed by the ray's id
   const uint8_t* holding = nullptr;        // shadow rays: of each triangle whether its plane holds the light; or null
+  const Cutouts* cutouts = nullptr;        // what holes the triangles have, or null
+  const glm::vec3* vertices = nullptr;     // of all triangles
   // all_hits(): takes every hit as the ray's id and a triangle, and lets the ray go on
   std::vector<std::pair<uint32_t, uint32_t>>* all_hits = nullptr;
 
@@ -49,6 +51,17 @@ struct Query {
   }
 };
 
+// Whether the ray passes through a hole of the triangle, by doubles from its vertices: the hit's own are too coarse.
+bool passes_hole(const Query& query, const RTCFilterFunctionNArguments* args, unsigned i, unsigned triangle) {
+  if (!query.cutouts || !query.cutouts->masked(triangle)) return false;
+  const glm::dvec3 origin(RTCRayN_org_x(args->ray, args->N, i), RTCRayN_org_y(args->ray, args->N, i),
+                          RTCRayN_org_z(args->ray, args->N, i));
+  const glm::dvec3 direction(RTCRayN_dir_x(args->ray, args->N, i), RTCRayN_dir_y(args->ray, args->N, i),
+                             RTCRayN_dir_z(args->ray, args->N, i));
+  const glm::vec3* v = query.vertices + 3 * size_t(triangle);
+  return !query.cutouts->there(triangle, {v[0], v[1], v[2]}, origin, direction);
+}
+
 // A filter costs less than the noise of measuring it (it runs once a hit), and no offset along the ray would
 // do: at grazing light a point's own triangle is met arbitrarily far away.
 void skip_what_casts_nothing(const RTCFilterFunctionNArguments* args) {
@@ -57,16 +70,20 @@ void skip_what_casts_nothing(const RTCFilterFunctionNArguments* args) {
     if (args->valid[i] == 0) continue;  // lanes that are off hold no id
     const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
     if (query->own_triangle[RTCRayN_id(args->ray, args->N, i)] == triangle ||
-        (query->holding && query->holding[triangle]))
+        (query->holding && query->holding[triangle]) || passes_hole(*query, args, i, triangle))
       args->valid[i] = 0;
   }
 }
 
 void collect_all(const RTCFilterFunctionNArguments* args) {
-  auto* all = reinterpret_cast<const Query*>(args->context)->all_hits;
-  if (!all) return;
+  const auto* query = reinterpret_cast<const Query*>(args->context);
+  auto* all = query->all_hits;
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
+    if (!all) {
+      if (passes_hole(*query, args, i, RTCHitN_primID(args->hit, args->N, i))) args->valid[i] = 0;
+      continue;
+    }
     all->emplace_back(RTCRayN_id(args->ray, args->N, i), RTCHitN_primID(args->hit, args->N, i));
     args->valid[i] = 0;
   }
@@ -148,11 +165,9 @@ struct CameraPacket {
 // Collects samples of receivers until 16 rays are full. Packets hold receivers only, whatever lies between them.
 class ShadowPacket {
  public:
-  ShadowPacket(RTCScene scene, const LightPoint& light, const uint8_t* holding, const Receivers& receivers,
+  ShadowPacket(RTCScene scene, const LightPoint& light, const Query& query, const Receivers& receivers,
                std::vector<uint32_t>& mask)
-      : scene_(scene), light_(light), receivers_(receivers), mask_(mask), query_(true) {
-    query_.own_triangle = receivers.own_triangle.data();
-    query_.holding = holding;
+      : scene_(scene), light_(light), receivers_(receivers), mask_(mask), query_(query) {
     for (int lane = 0; lane < packet; ++lane)
       ray_.time[lane] = 0.0f, ray_.mask[lane] = 0xFFFFFFFFu, ray_.flags[lane] = 0;
   }
@@ -232,6 +247,7 @@ struct RayTracer::State {
   unsigned threads = 0;
   size_t triangle_count = 0;
   double build_ms = 0.0;
+  std::shared_ptr<const Cutouts> cutouts;
 
   ~State() {
     if (geometry) rtcReleaseGeometry(geometry);
@@ -239,10 +255,21 @@ struct RayTracer::State {
     if (device) rtcReleaseDevice(device);
   }
 
+  const glm::vec3* vertices() const {
+    return static_cast<const glm::vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
+  }
+
+  Query query() const {
+    Query query(true);
+    query.cutouts = cutouts.get();
+    query.vertices = vertices();
+    return query;
+  }
+
   // Of each triangle whether its plane holds the light; empty if none does.
   std::vector<uint8_t> triangles_that_hold(const LightPoint& light) const {
     if (!light.positional) return {};
-    const auto* vertices = static_cast<const glm::vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
+    const glm::vec3* const vertices = this->vertices();
     std::vector<uint8_t> holding(triangle_count);
     std::atomic<bool> any{false};
     parallel_for(triangle_count, rays_per_chunk, threads, [&](size_t begin, size_t end, unsigned) {
@@ -268,6 +295,7 @@ RayTracer::RayTracer(const Triangles& triangles, BuildQuality quality, unsigned 
   State& s = *state_;
   s.threads = thread_count(threads);
   s.triangle_count = count;
+  s.cutouts = triangles.cutouts;
   s.device = rtcNewDevice(("threads=" + std::to_string(s.threads)).c_str());
   if (!s.device) fail("Embree cannot make a device (error {})", static_cast<int>(rtcGetDeviceError(nullptr)));
   s.scene = rtcNewScene(s.device);
@@ -320,18 +348,20 @@ MaskTrace RayTracer::trace_mask(const LightPoint& light, const Receivers& receiv
   MaskTrace result;
   result.mask.resize(count);
   const std::vector<uint8_t> holding = s.triangles_that_hold(light);
-  const uint8_t* const its_holding = holding.empty() ? nullptr : holding.data();
+  Query query = s.query();
+  query.own_triangle = receivers.own_triangle.data();
+  query.holding = holding.empty() ? nullptr : holding.data();
   std::atomic<uint64_t> rays{0};
   const auto start = std::chrono::steady_clock::now();
   if (width == 0) {
     parallel_for(count, rays_per_chunk, s.threads, [&](size_t begin, size_t end, unsigned) {
-      ShadowPacket packets(s.scene, light, its_holding, receivers, result.mask);
+      ShadowPacket packets(s.scene, light, query, receivers, result.mask);
       packets.add(begin, end);
       rays += packets.finish();
     });
   } else {
     parallel_for(count / width, packet_height, s.threads, [&](size_t first_row, size_t end_row, unsigned) {
-      ShadowPacket packets(s.scene, light, its_holding, receivers, result.mask);
+      ShadowPacket packets(s.scene, light, query, receivers, result.mask);
       for (size_t left = 0; left < width; left += packet_width)
         for (size_t row = first_row; row < end_row; ++row)
           packets.add(row * width + left, row * width + std::min(left + packet_width, width));
@@ -354,7 +384,7 @@ PrimaryHits RayTracer::primary_hits(std::span<const glm::vec3> origins, std::spa
   hits.triangle.resize(count, no_triangle);
   hits.t.resize(count, infinity);
   parallel_for(count, rays_per_chunk, s.threads, [&](size_t begin, size_t end, unsigned) {
-    Query query(true);
+    Query query = s.query();
     CameraPacket p;
     for (size_t first = begin; first < end; first += packet) {
       p.load(origins, directions, first, end, t_near);

@@ -66,12 +66,12 @@ class RayTracer {
   /// receiver's own triangle never occludes it. Throws izb::Error where the receivers' arrays differ in length.
   MaskTrace trace_mask(const LightPoint& light, const Receivers& receivers) const;
 
-  /// Nearest hits with t in [t_near, t_far]. `origins` has one entry for all rays or one a ray.
+  /// Nearest hits that are there with t in [t_near, t_far]. `origins` has one entry for all rays or one a ray.
   PrimaryHits primary_hits(std::span<const glm::vec3> origins, std::span<const glm::vec3> directions,
                            float t_near = 0.0f, float t_far = std::numeric_limits<float>::infinity()) const;
 
-  /// Every triangle with t in [t_near, the ray's t_far], by float arithmetic. All spans have one entry a ray. Works on
-  /// the calling thread alone.
+  /// Every triangle with t in [t_near, the ray's t_far], by float arithmetic, with holes or without. All spans have one
+  /// entry a ray. Works on the calling thread alone.
   AllHits all_hits(std::span<const glm::vec3> origins, std::span<const glm::vec3> directions, float t_near,
                    std::span<const float> t_far) const;
 

@@ -53,6 +53,11 @@ bool plane_between_exact(const glm::dvec3& point_vs, const Corners& triangle, co
 /// 0 for a degenerate or edge-on triangle.
 double plane_distance(const glm::dvec3& point_vs, const Corners& triangle, const LightPoint& light);
 
+/// The way from the point to the light, of any length.
+inline glm::dvec3 way_to(const LightPoint& light, const glm::dvec3& point_vs) {
+  return light.positional ? glm::dvec3(light.xyz_vs) - point_vs : glm::dvec3(light.xyz_vs);
+}
+
 /// The exact mask by brute force: every sample against every triangle but its receiver's own, on all cores. For
 /// small cases. One word a receiver, 0 where it is none: bit s is set where sample s is occluded, all bits where the
 /// only sample is. Throws izb::Error where the receivers' arrays differ in length.

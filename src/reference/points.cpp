@@ -61,9 +61,9 @@ double segment_distance(const glm::dvec2& p, const glm::dvec2& a, const glm::dve
 // One triangle as the camera sees it.
 class Seen {
  public:
-  Seen(const Triangles& triangles, uint32_t triangle, const PixelRays& rays, const Projection& project) : rays_(rays) {
-    const Corners t = corners(triangles, triangle);
-    corner_ = {t.a, t.b, t.c};
+  Seen(const Triangles& triangles, uint32_t triangle, const PixelRays& rays, const Projection& project)
+      : rays_(rays), cutouts_(triangles.cutouts.get()), triangle_(triangle), corners_(corners(triangles, triangle)) {
+    corner_ = {corners_.a, corners_.b, corners_.c};
     normal_ = glm::cross(corner_[1] - corner_[0], corner_[2] - corner_[0]);
     for (int i = 0; i < 3; ++i) {
       const glm::dvec3 p = project(corner_[i]);
@@ -74,6 +74,17 @@ class Seen {
 
   double t(double x, double y) const {
     return glm::dot(normal_, corner_[0] - rays_.origin_at(x, y)) / glm::dot(normal_, rays_.direction_at(x, y));
+  }
+
+  // By the alpha where the pixel's ray meets it. No rasteriser has a part in that place: what may move it are the ray's
+  // floats.
+  Presence presence(double x, double y) const {
+    if (!cutouts_) return {};
+    const double pixel = glm::length(rays_.origin_dx) + std::abs(t(x, y)) * glm::length(rays_.direction_dx);
+    const double ray_error_px = 4.0 * 0x1p-24 * std::max(rays_.width_px, rays_.height_px);
+    return cutouts_->within(triangle_, corners_,
+                            {rays_.origin_at(x, y), rays_.direction_at(x, y), ray_error_px * pixel,
+                             ray_error_px * glm::length(rays_.direction_dx)});
   }
 
   // Distance in pixels from a pixel's centre to the projected outline, positive inside.
@@ -111,6 +122,9 @@ class Seen {
   }
 
   const PixelRays& rays_;
+  const Cutouts* cutouts_;
+  uint32_t triangle_;
+  Corners corners_;
   std::array<glm::dvec3, 3> corner_;
   std::array<glm::dvec2, 3> pixel_;
   glm::dvec3 normal_;
@@ -132,7 +146,7 @@ bool depths_tie(const Seen& a, const Seen& b, double x, double y) {
   return least < 0.0 && most > 0.0;
 }
 
-enum class Outcome { ok, near_edge, depth_tie, wrong };
+enum class Outcome { ok, near_edge, depth_tie, near_cutoff, wrong };
 
 class PixelChecker {
  public:
@@ -152,7 +166,9 @@ class PixelChecker {
     const Seen mine = seen(own);
     const double inside = mine.inside_px(x, y);
     if (!(inside >= -tolerance_px) || !in_range(mine, x, y)) return Outcome::wrong;
-    Outcome worst = inside >= 0.0 ? Outcome::ok : Outcome::near_edge;
+    const Presence presence = mine.presence(x, y);
+    if (!presence.there && presence.sure) return Outcome::wrong;
+    Outcome worst = !presence.sure ? Outcome::near_cutoff : inside >= 0.0 ? Outcome::ok : Outcome::near_edge;
     for (const uint32_t other : candidates)
       if (other != own) worst = std::max(worst, behind(mine, seen(other), x, y));
     return worst;
@@ -164,7 +180,11 @@ class PixelChecker {
       const Seen theirs = seen(other);
       const double inside = theirs.inside_px(x, y), t = theirs.t(x, y);
       if (!(inside >= 0.0) || !(t >= rays_.t_near) || !(t <= rays_.t_far)) continue;
-      worst = std::max(worst, inside <= tolerance_px ? Outcome::near_edge : Outcome::wrong);
+      const Presence presence = theirs.presence(x, y);
+      if (!presence.there && presence.sure) continue;
+      worst = std::max(worst, inside <= tolerance_px ? Outcome::near_edge
+                              : presence.sure        ? Outcome::wrong
+                                                     : Outcome::near_cutoff);
     }
     return worst;
   }
@@ -177,8 +197,11 @@ class PixelChecker {
   Outcome behind(const Seen& mine, const Seen& theirs, double x, double y) const {
     const double inside = theirs.inside_px(x, y), t = theirs.t(x, y);
     if (!(inside >= 0.0) || !(t < mine.t(x, y)) || !(t >= rays_.t_near)) return Outcome::ok;
+    const Presence presence = theirs.presence(x, y);
+    if (!presence.there && presence.sure) return Outcome::ok;
     if (inside <= tolerance_px) return Outcome::near_edge;
-    return depths_tie(theirs, mine, x, y) ? Outcome::depth_tie : Outcome::wrong;
+    if (depths_tie(theirs, mine, x, y)) return Outcome::depth_tie;
+    return presence.sure ? Outcome::wrong : Outcome::near_cutoff;
   }
 
   // Whether the camera's planes cut the triangle off neither here nor within 1/128 pixel.
@@ -212,6 +235,9 @@ struct Partial {
       case Outcome::depth_tie:
         ++sums.depth_tie;
         break;
+      case Outcome::near_cutoff:
+        ++sums.near_cutoff;
+        break;
       case Outcome::wrong:
         ++sums.wrong;
         sums.wrong_pixels.push_back(pixel);
@@ -243,7 +269,7 @@ struct Partial {
   void add(const Partial& other) {
     const PointCheck& o = other.sums;
     sums.checked += o.checked, sums.ok += o.ok, sums.near_edge += o.near_edge;
-    sums.depth_tie += o.depth_tie, sums.wrong += o.wrong;
+    sums.depth_tie += o.depth_tie, sums.near_cutoff += o.near_cutoff, sums.wrong += o.wrong;
     sums.wrong_pixels.insert(sums.wrong_pixels.end(), o.wrong_pixels.begin(), o.wrong_pixels.end());
     if (o.max_plane_ulps > sums.max_plane_ulps)
       sums.max_plane_ulps = o.max_plane_ulps, sums.max_plane_pixel = o.max_plane_pixel;

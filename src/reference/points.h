@@ -29,12 +29,14 @@ struct PixelRays {
 /// view axis and t_near and t_far are the camera's planes.
 PixelRays pixel_rays(const Camera& camera, int width_px, int height_px);
 
-/// What check_points found. checked = ok + near_edge + depth_tie + wrong.
+/// What check_points found. checked = ok + near_edge + depth_tie + near_cutoff + wrong.
 struct PointCheck {
   uint64_t checked = 0;
-  uint64_t ok = 0;         ///< the pixel's triangle is the exact nearest hit; a sky pixel hits nothing
+  uint64_t ok = 0;         ///< the pixel's triangle is the exact nearest hit that is there; a sky pixel hits nothing
   uint64_t near_edge = 0;  ///< the pixel's centre lies outside it or inside what is nearer, by at most 1/128 pixel
   uint64_t depth_tie = 0;  ///< something is nearer, but the depths are equal (8 ulps) somewhere within 1/128 pixel
+  uint64_t near_cutoff =
+      0;  ///< the alpha of its triangle, or of what is nearer, passes the cut-off within a ray's rounding
   uint64_t wrong = 0;
   std::vector<uint32_t> wrong_pixels;  ///< the first 100
   double max_plane_ulps = 0.0;         ///< largest distance of a receiver from its own triangle's plane, in float ulps

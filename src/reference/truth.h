@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "reference/cutouts.h"
 #include "reference/micro_quad.h"
 
 namespace izb::reference {
@@ -18,6 +20,7 @@ namespace izb::reference {
 /// All triangles of the frame, instances flattened: triangle i is vertices 3i, 3i+1, 3i+2.
 struct Triangles {
   std::vector<glm::vec3> positions_vs;
+  std::shared_ptr<const Cutouts> cutouts{};  ///< null: all are opaque
   size_t count() const { return positions_vs.size() / 3; }
 };
 
