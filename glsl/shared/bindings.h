@@ -53,6 +53,8 @@
 #define UNIT_PYRAMID 10
 #define UNIT_MICRO_QUAD 11
 #define UNIT_TABLE 12
+#define UNIT_ALPHA 13
+#define UNIT_UVS 14
 
 // Image units.
 #define IMAGE_EYE_DISTANCE 0

@@ -7,8 +7,9 @@ SHARED_BEGIN
 
 struct MaterialFrame {
   vec4 base_color;  // linear
-  vec4 uv_u;        // texture coordinate u = dot(xyz, (u, v, 1))
+  vec4 uv_u;        // texture coordinate u = dot(xyz, (u, v, 1)); w: cut-off of alpha, in 255ths
   vec4 uv_v;
+  uvec4 alpha;      // x: first texel of its alpha map, y: width and, from bit 16 on, height, z: bits, see alpha.h
 };
 
 struct ReceiverPlane {

@@ -2,13 +2,22 @@
 #include "app/attribution.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "frame/read_back.h"
 
 namespace izb {
 namespace {
 
-constexpr const char* approximations[] = {"coverage", "insertion"};
+using Twins = reference::MaskTwins;
+
+/// What may be approximate, and the mask without it.
+struct Approximation {
+  const char* option;
+  std::vector<uint32_t> Twins::*exact;
+};
+constexpr Approximation approximations[] = {
+    {"coverage", &Twins::exact_coverage}, {"alpha", &Twins::exact_alpha}, {"insertion", &Twins::exact}};
 
 /// The option's text, or nothing where the technique has no such option.
 std::optional<std::string> value_of(const OptionSet& set, const std::string& name) {
@@ -28,31 +37,38 @@ void render_again(Session& session, Technique& technique) {
   session.timers.collect();
 }
 
+/// Whether this option of the technique makes bits of the session's frame other than exact.
+bool is_asked(const Approximation& approximation, const Session& session, Technique& technique) {
+  const bool matters = std::string_view(approximation.option) == "alpha"
+                           ? session.renderer.inputs().masked_casters
+                           : technique.samples().count() == samples_a_word;
+  return matters && value_of(technique.options(), approximation.option).value_or("exact") != "exact";
+}
+
 }  // namespace
 
-bool approximates(Technique& technique) {
-  if (technique.samples().count() != samples_a_word) return false;
-  const OptionSet set = technique.options();
+bool approximates(Session& session, Technique& technique) {
   return std::any_of(std::begin(approximations), std::end(approximations),
-                     [&](const char* name) { return value_of(set, name).value_or("exact") != "exact"; });
+                     [&](const Approximation& a) { return is_asked(a, session, technique); });
 }
 
 std::vector<reference::MaskTwins> render_twins(Session& session, Technique& technique) {
   const OptionSet set = technique.options();
-  std::vector<std::optional<std::string>> asked;
-  for (const char* name : approximations) asked.push_back(value_of(set, name));
-  std::vector<reference::MaskTwins> twins(session.renderer.light_count());
-  const auto keep = [&](std::vector<uint32_t> reference::MaskTwins::*mask) {
+  std::vector<Twins> twins(session.renderer.light_count());
+  const auto keep = [&](std::vector<uint32_t> Twins::*mask) {
     for (size_t i = 0; i < twins.size(); ++i) twins[i].*mask = session.renderer.read_mask(i);
   };
-  keep(&reference::MaskTwins::asked);
-  set_value(set, approximations[0], "exact");
-  render_again(session, technique);
-  keep(&reference::MaskTwins::exact_coverage);
-  set_value(set, approximations[1], "exact");
-  render_again(session, technique);
-  keep(&reference::MaskTwins::exact);
-  for (size_t i = 0; i < asked.size(); ++i) set_value(set, approximations[i], asked[i]);
+  keep(&Twins::asked);
+  std::vector<std::optional<std::string>> asked;
+  for (const Approximation& a : approximations) {
+    asked.push_back(value_of(set, a.option));
+    if (is_asked(a, session, technique)) {
+      set_value(set, a.option, "exact");
+      render_again(session, technique);
+    }
+    keep(a.exact);
+  }
+  for (size_t i = 0; i < asked.size(); ++i) set_value(set, approximations[i].option, asked[i]);
   render_again(session, technique);
   return twins;
 }

@@ -8,11 +8,13 @@
 
 namespace izb {
 
-/// Whether the technique's options ask for an approximation of `coverage` or `insertion` at 32 samples a pixel.
-bool approximates(Technique& technique);
+/// Whether the frame is rendered with approximations: of `coverage` or `insertion` at 32 samples a pixel, or of the
+/// `alpha` of casters that have a mask.
+bool approximates(Session& session, Technique& technique);
 
-/// Of each light the masks as asked, with `coverage` exact, and with `insertion` exact, too: the last frame's own and
-/// two more. Afterwards the options are as before and the frame is rendered again.
+/// Of each light the masks as asked, with `coverage` exact, with `alpha` exact, too, and with `insertion` exact, too:
+/// the last frame's own and one more for each that was not. Afterwards the options are as before and the frame is
+/// rendered again.
 std::vector<reference::MaskTwins> render_twins(Session& session, Technique& technique);
 
 }  // namespace izb

@@ -40,7 +40,7 @@ void print_scene(const std::string& path) {
   table.add_row({"triangles", fmt::format("{} placed, {} unique", scene.triangle_count(), unique)});
   table.add_row({"meshes", fmt::format("{}, placed {} times", scene.meshes.size(), scene.instances.size())});
   table.add_row({"geometry", gpu::megabytes(scene.geometry_bytes())});
-  table.add_row({"materials", fmt::format("{} ({} alpha-masked, {} blended: they cast and receive as opaque)",
+  table.add_row({"materials", fmt::format("{} ({} alpha-masked; {} blended, which cast and receive as opaque)",
                                           scene.materials.size(), masked, blended)});
   table.add_row({"textures", fmt::format("{}", scene.textures.size())});
   table.add_row({"bounds", fmt::format("({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})", bounds.min.x,

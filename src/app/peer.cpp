@@ -7,7 +7,7 @@
 namespace izb {
 
 Peer::Peer(const Renderer& renderer)
-    : tracer_({renderer.inputs().triangles_vs()}, reference::BuildQuality::low),
+    : tracer_(make_triangles(renderer.inputs()), reference::BuildQuality::low),
       samples_{{"low", reference::BuildQuality::low, {}, {}},
                {"medium", reference::BuildQuality::medium, {}, {}},
                {"high", reference::BuildQuality::high, {}, {}}} {

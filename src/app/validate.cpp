@@ -42,7 +42,9 @@ struct ValidateOptions {
     set.text("json", json, "FILE", "write the table's numbers as JSON");
     set.text("heatmap", heatmap, "FILE",
              "write a picture of the verdicts as PNG: grey the mask, blue settled for the mask, yellow explained, red "
-             "unexplained, magenta leaked by an approximate insertion, cyan wrong by a look-up table; with several "
+             "unexplained, magenta leaked by an approximate insertion, cyan wrong by a look-up table, green by alpha "
+             "asked once a fragment or "
+             "within its error; with several "
              "scenes the stem of each is added to the name, of several lights the pictures stand side by side");
     set.flag("points", points, "also check the receiver points themselves");
     set.flag("model", model,
@@ -74,7 +76,7 @@ struct Truth {
 
   explicit Truth(const Session& s)
       : gbuffer(read_gbuffer(*s.renderer.inputs().gbuffer)),
-        triangles{s.renderer.inputs().triangles_vs()},
+        triangles(make_triangles(s.renderer.inputs())),
         rays(reference::pixel_rays(s.frame.camera, s.frame.size.width_px, s.frame.size.height_px)),
         tracer(triangles) {}
 };
@@ -90,7 +92,7 @@ std::vector<Masks> render_masks(Session& s) {
   s.timers.collect();
   std::vector<Masks> masks(s.renderer.light_count());
   for (size_t i = 0; i < masks.size(); ++i) masks[i].asked = s.renderer.read_mask(i);
-  if (!approximates(*s.technique)) return masks;
+  if (!approximates(s, *s.technique)) return masks;
   std::vector<reference::MaskTwins> twins = render_twins(s, *s.technique);
   for (size_t i = 0; i < masks.size(); ++i) masks[i].twins = std::move(twins[i]);
   return masks;

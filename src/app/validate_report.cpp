@@ -27,6 +27,7 @@ nlohmann::json settled_json(const reference::Settled& settled) {
           {"disputed", settled.disputed},
           {"settled_ours", settled.settled_ours},
           {"explained", settled.explained},
+          {"explained_by_alpha", settled.explained_by_alpha},
           {"unexplained", settled.unexplained},
           {"leaks", settled.leaks},
           {"false_shadow", settled.false_shadow},
@@ -38,6 +39,7 @@ nlohmann::json points_json(const reference::PointCheck& check) {
           {"ok", check.ok},
           {"near_edge", check.near_edge},
           {"depth_tie", check.depth_tie},
+          {"near_cutoff", check.near_cutoff},
           {"wrong", check.wrong},
           {"max_plane_ulps", check.max_plane_ulps},
           {"max_ray_offset_px", check.max_ray_offset_px}};
@@ -47,8 +49,11 @@ nlohmann::json attribution_json(const reference::Attribution& sums) {
   return {{"table", sums.table},
           {"insertion_leaks", sums.insertion_leaks},
           {"insertion_false", sums.insertion_false},
+          {"alpha_leaks", sums.alpha_leaks},
+          {"alpha_false", sums.alpha_false},
           {"shadowed_bits", sums.shadowed_bits},
-          {"leak_percent", sums.leak_percent()}};
+          {"leak_percent", sums.leak_percent()},
+          {"alpha_percent", sums.alpha_percent()}};
 }
 
 nlohmann::json deformation_json(const DeformCheck& check) {
@@ -84,6 +89,7 @@ void print_table(const std::vector<SceneReport>& reports) {
                            {"disputed", "/disputed"},
                            {"settled_ours", "/settled_ours"},
                            {"explained", "/explained"},
+                           {"by alpha", "/explained_by_alpha"},
                            {"unexplained", "/unexplained"},
                            {"leaks", "/leaks"},
                            {"false_shadow", "/false_shadow"},
@@ -96,6 +102,9 @@ void print_table(const std::vector<SceneReport>& reports) {
                                                         {"insertion leaks", "/attribution/insertion_leaks"},
                                                         {"insertion false", "/attribution/insertion_false"},
                                                         {"leak %", "/attribution/leak_percent"},
+                                                        {"alpha leaks", "/attribution/alpha_leaks"},
+                                                        {"alpha false", "/attribution/alpha_false"},
+                                                        {"alpha %", "/attribution/alpha_percent"},
                                                         {"model %", "/model/percent"},
                                                         {"vertices wrong", "/deformation/wrong"}})
     if (std::any_of(reports.begin(), reports.end(), [&](const SceneReport& report) {

@@ -25,13 +25,15 @@ Image8 verdict_picture(const reference::Receivers& receivers, const reference::S
   for (size_t i = 0; i < mask.size(); ++i) {
     const Verdict verdict = settled.verdicts[i];
     const reference::WrongBits wrong = twins ? reference::wrong_bits(receivers, *twins, i) : reference::WrongBits{};
-    const Color color = verdict == Verdict::not_compared   ? Color{120, 120, 120}
-                        : verdict == Verdict::unexplained  ? Color{255, 0, 0}
-                        : wrong.insertion_leaks != 0       ? Color{255, 0, 255}
-                        : wrong.table != 0                 ? Color{0, 255, 255}
-                        : verdict == Verdict::explained    ? Color{255, 220, 0}
-                        : verdict == Verdict::settled_ours ? Color{60, 90, 255}
-                                                           : grey_of(receivers, mask[i]);
+    const Color color = verdict == Verdict::not_compared               ? Color{120, 120, 120}
+                        : verdict == Verdict::unexplained              ? Color{255, 0, 0}
+                        : wrong.insertion_leaks != 0                   ? Color{255, 0, 255}
+                        : wrong.table != 0                             ? Color{0, 255, 255}
+                        : (wrong.alpha_leaks | wrong.alpha_false) != 0 ? Color{0, 200, 60}
+                        : verdict == Verdict::explained                ? Color{255, 220, 0}
+                        : verdict == Verdict::explained_by_alpha       ? Color{0, 200, 60}
+                        : verdict == Verdict::settled_ours             ? Color{60, 90, 255}
+                                                                       : grey_of(receivers, mask[i]);
     picture.pixels.insert(picture.pixels.end(), color.begin(), color.end());
   }
   return picture;

@@ -43,11 +43,12 @@ uint32_t place_vertices(const Scene& scene, const Instance& instance, DrawList& 
   return static_cast<uint32_t>(first);
 }
 
-/// Instances in drawing order: those of one texture together, then those of one mesh.
+/// Instances in drawing order: masked ones last, of both those of one texture together, then those of one mesh.
 std::vector<uint32_t> ordered_instances(const Scene& scene) {
   const auto key = [&](uint32_t i) {
     const uint32_t mesh = scene.instances[i].mesh;
-    return std::tuple(scene.materials[scene.meshes[mesh].material].base_color_texture, mesh, i);
+    const Material& material = scene.materials[scene.meshes[mesh].material];
+    return std::tuple(material.masked(), material.base_color_texture, mesh, i);
   };
   std::vector<uint32_t> order(scene.instances.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -95,12 +96,15 @@ class Builder {
   }
 
   void add_command(uint32_t mesh, const DrawCommand& command) {
-    const int texture = scene_.materials[scene_.meshes[mesh].material].base_color_texture;
+    const Material& material = scene_.materials[scene_.meshes[mesh].material];
+    const int texture = material.base_color_texture;
     const bool full = !list_.groups.empty() && list_.groups.back().triangle_count >= part_triangles_;
-    if (list_.groups.empty() || list_.groups.back().texture != texture || full)
-      list_.groups.push_back({texture, static_cast<uint32_t>(list_.commands.size()), 0, 0});
+    if (list_.groups.empty() || list_.groups.back().texture != texture ||
+        list_.groups.back().masked != material.masked() || full)
+      list_.groups.push_back({texture, material.masked(), static_cast<uint32_t>(list_.commands.size()), 0, 0});
     ++list_.groups.back().command_count;
     list_.groups.back().triangle_count += command.index_count / 3;
+    list_.opaque_commands += !material.masked();
     list_.commands.push_back(command);
   }
 

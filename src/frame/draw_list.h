@@ -13,9 +13,13 @@ struct DrawCommand {
   uint32_t index_count = 0, instance_count = 0, first_index = 0, base_vertex = 0, base_instance = 0;
 };
 
+/// What of a scene a draw is about: triangles of masked materials take programs of their own.
+enum class Drawn { all, opaque, masked };
+
 /// Commands one after another that share a base-colour texture.
 struct DrawGroup {
   int texture = -1;  ///< index into Scene::textures or -1
+  bool masked = false;
   uint32_t first_command = 0, command_count = 0;
   uint64_t triangle_count = 0;
 };
@@ -42,12 +46,18 @@ struct DrawList {
   std::vector<uint32_t> first_triangle;  ///< of each part
   std::vector<uint32_t> first_index;     ///< of each mesh in the joined index buffer
   std::vector<uint32_t> first_vertex;    ///< of each mesh at rest in those, no_vertex: not there, since it only deforms
-  std::vector<DrawCommand> commands;     ///< each draws a part, or the same part of several instances at rest
+  std::vector<DrawCommand>
+      commands;  ///< each draws a part, or the same part of several instances at rest; masked ones last
   std::vector<DrawGroup> groups;
+  uint32_t opaque_commands = 0;  ///< the commands before the masked ones
   uint32_t vertex_count = 0, index_count = 0, triangle_count = 0;
 
   static constexpr uint32_t no_vertex = 0xFFFFFFFFu;
 };
+
+inline bool has_masked(const DrawList& list) {
+  return list.opaque_commands < list.commands.size();
+}
 
 /// An instance that deforms has vertices of its own. Throws izb::Error if the scene has more triangles or vertices than
 /// 32 bits can number. `part_triangles`, for tests, takes the place of largest_part_triangles.

@@ -15,12 +15,16 @@ struct FrameInputs {
   shared::LightFrame light;
   SamplePattern samples;             ///< where in a pixel the shadow samples lie
   const GBuffer* gbuffer = nullptr;  ///< its textures are bound to their units
-  /// Draws every triangle of the scene once: attributes position and instance, storage block of instances bound.
-  std::function<void()> draw_casters;
+  /// Draws triangles of the scene once: attributes position, uv and instance, storage block of instances bound.
+  std::function<void(Drawn)> draw_casters;
+  bool masked_casters = false;  ///< are there any to which an alpha mask applies?
   /// The frame's triangles in view space on the CPU, in the frame's numbering; made on first use.
   std::function<const std::vector<glm::vec3>&()> triangles_vs;
   /// Of each instance (G-buffer id - 1): its first triangle in the frame's numbering.
   const std::vector<uint32_t>* first_triangle = nullptr;
+  /// For the alpha masks of techniques on the CPU: what the triangles are of; null: all are opaque.
+  const Scene* scene = nullptr;
+  const DrawList* draw_list = nullptr;
 };
 
 /// What a technique writes: 32 samples a pixel, a set bit is an occluded sample; 0 where there is nothing to shadow.

@@ -98,11 +98,14 @@ std::vector<shared::InstanceFrame> make_instance_frames(const Camera& camera, co
   return frames;
 }
 
-std::vector<shared::MaterialFrame> make_materials(const Scene& scene) {
+std::vector<shared::MaterialFrame> make_materials(const Scene& scene, const AlphaMaps& maps) {
   std::vector<shared::MaterialFrame> frames;
-  for (const Material& m : scene.materials) {
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& m = scene.materials[i];
     const glm::mat3 rows = glm::transpose(m.uv_transform);
-    frames.push_back({m.base_color, glm::vec4(rows[0], 0.0f), glm::vec4(rows[1], 0.0f)});
+    // Rounded to a float, so that an alpha of n / 255 passes a cut-off of n / 255.
+    const float cutoff = m.alpha_cutoff * 255.0f;
+    frames.push_back({m.base_color, glm::vec4(rows[0], cutoff), glm::vec4(rows[1], 0.0f), maps.of_material[i]});
   }
   return frames;
 }

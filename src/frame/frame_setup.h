@@ -3,6 +3,7 @@
 #pragma once
 #include <vector>
 
+#include "frame/alpha_maps.h"
 #include "frame/draw_list.h"
 #include "frame/geometry_windows.h"
 #include "frame/samples.h"
@@ -44,7 +45,7 @@ shared::LightFrame make_light_frame(const Camera& camera, const shared::CameraFr
 
 std::vector<shared::InstanceFrame> make_instance_frames(const Camera& camera, const Scene& scene, const DrawList& list);
 
-std::vector<shared::MaterialFrame> make_materials(const Scene& scene);
+std::vector<shared::MaterialFrame> make_materials(const Scene& scene, const AlphaMaps& maps);
 
 shared::SampleFrame make_sample_frame(const SamplePattern& samples, const GridRequest& grid);
 

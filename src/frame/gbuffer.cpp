@@ -51,6 +51,11 @@ gpu::ProgramSpec resolve_spec(bool micro_quads, gpu::Defines defines) {
   return {"gbuffer resolve", {"frame/1_gbuffer_resolve.comp.glsl"}, defines};
 }
 
+gpu::ProgramSpec masked_spec(gpu::Defines defines) {
+  defines["MASKED"] = "1";
+  return {"gbuffer masked", {"frame/1_gbuffer.vert.glsl", "frame/1_gbuffer.frag.glsl"}, defines};
+}
+
 }  // namespace
 
 std::vector<gpu::ProgramSpec> GBufferStage::program_specs() {
@@ -58,13 +63,17 @@ std::vector<gpu::ProgramSpec> GBufferStage::program_specs() {
   return {{"gbuffer", {"frame/1_gbuffer.vert.glsl", "frame/1_gbuffer.frag.glsl"}, {}},
           resolve_spec(false, {}),
           resolve_spec(true, {}),
-          resolve_spec(true, windows)};
+          resolve_spec(true, windows),
+          masked_spec({}),
+          masked_spec(windows)};
 }
 
 GBufferStage::GBufferStage() : draw_(program_specs()[0]) {}
 
-void GBufferStage::resize(int width_px, int height_px, bool micro_quads, const GeometryWindows& geometry) {
-  resolve_ = gpu::Program(resolve_spec(micro_quads, geometry.defines()));
+void GBufferStage::resize(int width_px, int height_px, bool micro_quads, const SceneBuffers& scene) {
+  const gpu::Defines geometry = scene.windows().defines();
+  resolve_ = gpu::Program(resolve_spec(micro_quads, geometry));
+  if (has_masked(scene.draw_list())) draw_masked_ = gpu::Program(masked_spec(geometry));
   gbuffer_ = GBuffer(width_px, height_px, micro_quads);
   framebuffer_ =
       gpu::Framebuffer("gbuffer", {&gbuffer_.id, &gbuffer_.albedo, &gbuffer_.shading_normal}, &gbuffer_.depth);
@@ -87,7 +96,11 @@ void GBufferStage::render(const SceneBuffers& scene, gpu::StageTimers& timers) {
   glDepthFunc(GL_GREATER);
   glEnable(GL_FRAMEBUFFER_SRGB);
   draw_.use();
-  scene.draw_with_textures();
+  scene.draw_with_textures(Drawn::opaque);
+  if (has_masked(scene.draw_list())) {
+    draw_masked_.use();
+    scene.draw_with_textures(Drawn::masked);
+  }
   glDisable(GL_FRAMEBUFFER_SRGB);
   glDisable(GL_DEPTH_TEST);
 

@@ -30,15 +30,15 @@ struct GBuffer {
 class GBufferStage {
  public:
   GBufferStage();
-  /// micro_quads: also find each pixel's micro-quad. `geometry` is the scene's.
-  void resize(int width_px, int height_px, bool micro_quads, const GeometryWindows& geometry);
+  /// For frames of that scene. micro_quads: also find each pixel's micro-quad.
+  void resize(int width_px, int height_px, bool micro_quads, const SceneBuffers& scene);
   /// Draws the scene and finds every pixel's receiver point. The camera's uniform block is bound.
   void render(const SceneBuffers& scene, gpu::StageTimers& timers);
   const GBuffer& gbuffer() const { return gbuffer_; }
   static std::vector<gpu::ProgramSpec> program_specs();
 
  private:
-  gpu::Program draw_, resolve_;
+  gpu::Program draw_, draw_masked_, resolve_;
   GBuffer gbuffer_;
   gpu::Framebuffer framebuffer_;
 };

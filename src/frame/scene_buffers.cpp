@@ -27,7 +27,7 @@ uint64_t normal_count(const Scene& scene, const DrawList& list) {
 }
 
 uint64_t uv_count(const Scene& scene, const DrawList& list) {
-  return any_has(scene, &Mesh::uvs) ? list.vertex_count : 0;
+  return any_has(scene, &Mesh::uvs) || has_masked(list) ? list.vertex_count : 0;
 }
 
 /// Joins one array of every mesh, straight from where it stands; a mesh without it gets zeros. `deformed`: also for the
@@ -110,6 +110,7 @@ SceneBuffers::SceneBuffers(const Scene& scene, DrawList list, const gpu::Capabil
   gpu::expect_room({{"scene '" + scene.name + "'", memory_needed(scene, list_)}}, gpu::memory_room(capabilities),
                    capabilities);
   upload_geometry(scene);
+  upload_materials(scene);
   upload_textures(scene);
 }
 
@@ -129,7 +130,6 @@ void SceneBuffers::upload_geometry(const Scene& scene) {
   instance_ids_ = gpu::Buffer("instance ids", ids);
   commands_ = gpu::Buffer("draw commands", list_.commands);
   instances_ = gpu::Buffer("instances", list_.parts.size() * sizeof(shared::InstanceFrame));
-  materials_ = gpu::Buffer("materials", make_materials(scene));
 
   vertex_array_ = gpu::VertexArray("scene");
   const GLuint va = vertex_array_.name();
@@ -148,6 +148,14 @@ void SceneBuffers::upload_geometry(const Scene& scene) {
   glVertexArrayBindingDivisor(va, ATTRIBUTE_INSTANCE, 1);
   glEnableVertexArrayAttrib(va, ATTRIBUTE_INSTANCE);
   glVertexArrayElementBuffer(va, indices_.name());
+}
+
+void SceneBuffers::upload_materials(const Scene& scene) {
+  const AlphaMaps maps = plan_alpha_maps(scene);
+  materials_ = gpu::Buffer("materials", make_materials(scene, maps));
+  if (maps.texel_count == 0) return;
+  alpha_maps_ = gpu::BufferTexture("alpha maps", join_alpha_maps(scene, maps));
+  if (has_masked(list_)) uv_texels_ = gpu::BufferTexture("uvs", GL_RG32F, uvs_);
 }
 
 void SceneBuffers::upload_textures(const Scene& scene) {
@@ -179,9 +187,12 @@ void SceneBuffers::bind_storage() const {
   windows_.bind(BIND_POSITIONS, BIND_MORE_POSITIONS, positions_, windows_.positions);
   windows_.bind(BIND_INDICES, BIND_MORE_INDICES, indices_, windows_.indices);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_MATERIALS, materials_.name());
+  if (!uv_texels_) return;
+  glBindTextureUnit(UNIT_ALPHA, alpha_maps_.name());
+  glBindTextureUnit(UNIT_UVS, uv_texels_.name());
 }
 
-void SceneBuffers::draw(bool with_textures) const {
+void SceneBuffers::draw(Drawn drawn, bool with_textures) const {
   bind_storage();
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
@@ -191,8 +202,13 @@ void SceneBuffers::draw(bool with_textures) const {
                                 reinterpret_cast<const void*>(uintptr_t(first) * sizeof(DrawCommand)),
                                 static_cast<GLsizei>(count), 0);
   };
-  if (!with_textures && !throttled_) return draw_commands(0, static_cast<uint32_t>(list_.commands.size()));
+  if (!with_textures && !throttled_) {
+    const uint32_t first = drawn == Drawn::masked ? list_.opaque_commands : 0;
+    const uint32_t end = drawn == Drawn::opaque ? list_.opaque_commands : static_cast<uint32_t>(list_.commands.size());
+    return draw_commands(first, end - first);
+  }
   for (const DrawGroup& group : list_.groups) {
+    if (drawn != Drawn::all && group.masked != (drawn == Drawn::masked)) continue;
     if (with_textures) {
       const bool textured = group.texture >= 0;
       glBindTextureUnit(UNIT_BASE_COLOR, textured ? textures_[group.texture].name() : white_.name());
@@ -204,17 +220,18 @@ void SceneBuffers::draw(bool with_textures) const {
   if (with_textures) glBindSampler(UNIT_BASE_COLOR, 0);
 }
 
-void SceneBuffers::draw_with_textures() const {
-  draw(true);
+void SceneBuffers::draw_with_textures(Drawn drawn) const {
+  draw(drawn, true);
 }
 
-void SceneBuffers::draw_casters() const {
-  draw(false);
+void SceneBuffers::draw_casters(Drawn drawn) const {
+  draw(drawn, false);
 }
 
 size_t SceneBuffers::bytes() const {
   size_t sum = positions_.bytes() + normals_.bytes() + uvs_.bytes() + indices_.bytes() + instance_ids_.bytes() +
-               commands_.bytes() + instances_.bytes() + materials_.bytes() + white_.bytes() + deform_.bytes();
+               commands_.bytes() + instances_.bytes() + materials_.bytes() + white_.bytes() + deform_.bytes() +
+               alpha_maps_.bytes();
   for (const gpu::Texture& t : textures_) sum += t.bytes();
   return sum;
 }
@@ -229,13 +246,18 @@ gpu::Plan SceneBuffers::memory_needed(const Scene& scene, const DrawList& list) 
   buffer("positions", Kind::other_buffer, list.vertex_count, sizeof(glm::vec3));
   if (const uint64_t normals = normal_count(scene, list))
     buffer("normals", Kind::other_buffer, normals, sizeof(glm::vec3));
-  if (const uint64_t uvs = uv_count(scene, list)) buffer("uvs", Kind::other_buffer, uvs, sizeof(glm::vec2));
+  if (const uint64_t uvs = uv_count(scene, list)) {
+    buffer("uvs", Kind::other_buffer, uvs, sizeof(glm::vec2));
+    if (has_masked(list)) plan.back() = gpu::planned_buffer_texture("uvs", GL_RG32F, uvs, {});
+  }
   buffer("indices", Kind::other_buffer, list.index_count, sizeof(uint32_t));
   buffer("instance ids", Kind::other_buffer, list.parts.size(), sizeof(uint32_t));
   buffer("draw commands", Kind::other_buffer, list.commands.size(), sizeof(DrawCommand));
   buffer("instances", Kind::storage_buffer, list.parts.size(), sizeof(shared::InstanceFrame));
   buffer("materials", Kind::storage_buffer, scene.materials.size(), sizeof(shared::MaterialFrame));
   for (gpu::Planned& part : DeformStage::memory_needed(scene, list)) plan.push_back(std::move(part));
+  if (const uint64_t texels = plan_alpha_maps(scene).texel_count; texels > 0)
+    plan.push_back(gpu::planned_buffer_texture("alpha maps", GL_R8UI, texels, {}));
   plan.push_back(gpu::planned_texture("white", GL_SRGB8_ALPHA8, 1, 1, {}));
   for (const Texture& t : scene.textures)
     plan.push_back(

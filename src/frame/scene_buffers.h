@@ -22,11 +22,12 @@ class SceneBuffers {
   const gpu::Buffer& positions() const { return positions_; }
   const gpu::Buffer& normals() const { return normals_; }
 
-  /// Draws everything once, base-colour textures bound group by group, for the G-buffer.
-  void draw_with_textures() const;
-  /// Draws every triangle once: attributes position and instance, for techniques that cast shadows.
-  void draw_casters() const;
-  /// Binds instances, positions, indices and materials as storage blocks.
+  /// Draws it once, base-colour textures bound group by group, for the G-buffer.
+  void draw_with_textures(Drawn drawn) const;
+  /// Draws each of its triangles once: attributes position, uv and instance, for techniques that cast shadows.
+  void draw_casters(Drawn drawn) const;
+  /// Binds instances, positions, indices and materials as storage blocks; where anything is masked, also what its alpha
+  /// takes.
   void bind_storage() const;
 
   const GeometryWindows& windows() const { return windows_; }
@@ -37,8 +38,9 @@ class SceneBuffers {
 
  private:
   void upload_geometry(const Scene& scene);
+  void upload_materials(const Scene& scene);
   void upload_textures(const Scene& scene);
-  void draw(bool with_textures) const;
+  void draw(Drawn drawn, bool with_textures) const;
 
   DrawList list_;
   GeometryWindows windows_;
@@ -47,6 +49,7 @@ class SceneBuffers {
   DeformStage deform_;
   gpu::VertexArray vertex_array_;
   gpu::Texture white_;
+  gpu::BufferTexture alpha_maps_, uv_texels_;
   std::vector<gpu::Texture> textures_;
   std::vector<gpu::Sampler> samplers_;
 };

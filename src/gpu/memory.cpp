@@ -74,7 +74,7 @@ void expect_within_limits(const std::string& group, const Planned& p, const Capa
                            megabytes(static_cast<uint64_t>(c.max_storage_block_bytes))));
       break;
     case Planned::Kind::buffer_texture:
-      if (p.bytes / sizeof(uint32_t) > static_cast<uint64_t>(c.max_buffer_texels))
+      if (p.texels > static_cast<uint64_t>(c.max_buffer_texels))
         refuse(fmt::format("this GL driver's buffer textures stop at {} texels", c.max_buffer_texels));
       break;
     case Planned::Kind::other_buffer:
@@ -102,7 +102,16 @@ Planned planned_buffer(std::string part, Planned::Kind kind, uint64_t bytes, std
   p.part = std::move(part);
   p.kind = kind;
   p.bytes = buffer_bytes(bytes);
+  if (kind == Planned::Kind::buffer_texture) p.texels = p.bytes / sizeof(uint32_t);
   p.reduce = std::move(reduce);
+  return p;
+}
+
+Planned planned_buffer_texture(std::string part, GLenum format, uint64_t texels, std::vector<std::string> reduce) {
+  const uint64_t texel_bytes = format == GL_R8UI ? 1 : format == GL_RG32F ? 8 : 4;
+  Planned p = planned_buffer(std::move(part), Planned::Kind::buffer_texture, texels * texel_bytes, std::move(reduce));
+  p.format = format;
+  p.texels = texels;
   return p;
 }
 

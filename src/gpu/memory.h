@@ -21,11 +21,14 @@ struct Planned {
   std::vector<std::string> reduce;  ///< the options that make it smaller, e.g. "--grid"
   GLenum format = 0;                ///< this and the rest: of a texture
   int width_px = 0, height_px = 0, layers = 1, levels = 1;
+  uint64_t texels = 0;  ///< of a buffer texture
 };
 
 Planned planned_texture(std::string part, GLenum format, int width_px, int height_px, std::vector<std::string> reduce,
                         int layers = 1, int levels = 1);
 Planned planned_buffer(std::string part, Planned::Kind kind, uint64_t bytes, std::vector<std::string> reduce);
+/// Of GL_R32UI, GL_R8UI or GL_RG32F.
+Planned planned_buffer_texture(std::string part, GLenum format, uint64_t texels, std::vector<std::string> reduce);
 
 using Plan = std::vector<Planned>;
 /// Plans by the name of the group that they belong to, e.g. "gbuffer".

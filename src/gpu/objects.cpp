@@ -106,10 +106,23 @@ void Texture::finish(const std::string& text, int levels) {
 }
 
 BufferTexture::BufferTexture(const std::string& text, const std::vector<uint32_t>& words) : buffer_(text, words) {
-  glCreateTextures(GL_TEXTURE_BUFFER, 1, &name_);
-  glTextureBuffer(name_, GL_R32UI, buffer_.name());
-  label(GL_TEXTURE, name_, text);
+  attach(text, GL_R32UI, buffer_);
   bytes_ = buffer_.bytes();
+}
+
+BufferTexture::BufferTexture(const std::string& text, const std::vector<uint8_t>& bytes) : buffer_(text, bytes) {
+  attach(text, GL_R8UI, buffer_);
+  bytes_ = buffer_.bytes();
+}
+
+BufferTexture::BufferTexture(const std::string& text, GLenum format, const Buffer& buffer) {
+  attach(text, format, buffer);
+}
+
+void BufferTexture::attach(const std::string& text, GLenum format, const Buffer& buffer) {
+  glCreateTextures(GL_TEXTURE_BUFFER, 1, &name_);
+  glTextureBuffer(name_, format, buffer.name());
+  label(GL_TEXTURE, name_, text);
 }
 
 void Texture::clear(GLenum format, GLenum type, const void* value) {

@@ -110,13 +110,18 @@ class Texture : public Object<TextureTraits> {
   int width_px_ = 0, height_px_ = 0, layers_ = 1;
 };
 
-/// A buffer of 32-bit words that shaders fetch as a texture.
+/// A buffer of 32-bit words or bytes that shaders fetch as a texture of unsigned integers.
 class BufferTexture : public Object<TextureTraits> {
  public:
   BufferTexture() = default;
   BufferTexture(const std::string& label, const std::vector<uint32_t>& words);
+  BufferTexture(const std::string& label, const std::vector<uint8_t>& bytes);
+  /// A view of a buffer that must outlive it; takes no memory of its own.
+  BufferTexture(const std::string& label, GLenum format, const Buffer& buffer);
 
  private:
+  void attach(const std::string& label, GLenum format, const Buffer& buffer);
+
   Buffer buffer_;
 };
 

@@ -10,13 +10,15 @@ namespace izb::reference {
 WrongBits wrong_bits(const Receivers& receivers, const MaskTwins& twins, size_t i) {
   if (receivers.classes[i] != PixelClass::receiver) return {};
   const uint32_t asked = receivers.bits_of(twins.asked[i]), exact = receivers.bits_of(twins.exact[i]);
+  const uint32_t masked = receivers.bits_of(twins.exact_alpha[i]);
   const uint32_t table = asked ^ receivers.bits_of(twins.exact_coverage[i]);
-  return {table, exact & ~asked & ~table, asked & ~exact & ~table};
+  const uint32_t others = ~table & ~(asked ^ masked);
+  return {table, masked & ~asked & ~table, asked & ~masked & ~table, exact & ~asked & others, asked & ~exact & others};
 }
 
 Attribution attribute(const Receivers& receivers, const MaskTwins& twins) {
   receivers.check("attribute wrong bits");
-  for (const auto* mask : {&twins.asked, &twins.exact_coverage, &twins.exact})
+  for (const auto* mask : {&twins.asked, &twins.exact_coverage, &twins.exact_alpha, &twins.exact})
     if (mask->size() != receivers.count())
       fail("cannot attribute wrong bits: {} points come with {} mask words", receivers.count(), mask->size());
   Attribution sums;
@@ -27,6 +29,8 @@ Attribution attribute(const Receivers& receivers, const MaskTwins& twins) {
     sums.table += count(wrong.table);
     sums.insertion_leaks += count(wrong.insertion_leaks);
     sums.insertion_false += count(wrong.insertion_false);
+    sums.alpha_leaks += count(wrong.alpha_leaks);
+    sums.alpha_false += count(wrong.alpha_false);
     sums.shadowed_bits += count(receivers.bits_of(twins.exact[i]));
   }
   return sums;

@@ -114,7 +114,7 @@ int base_color_uv_set(const tinygltf::Model& model, int material) {
 
 void load_materials(tinygltf::Model& model, Scene& scene) {
   TextureCache textures(model, scene);
-  size_t masked = 0, blended = 0, unlit = 0, other_textures = 0;
+  size_t blended = 0, unlit = 0, other_textures = 0;
   for (const tinygltf::Material& source : model.materials) {
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
     Material material;
@@ -130,7 +130,6 @@ void load_materials(tinygltf::Model& model, Scene& scene) {
     material.alpha_mode = to_alpha_mode(source.alphaMode);
     material.alpha_cutoff = static_cast<float>(source.alphaCutoff);
     material.double_sided = source.doubleSided;
-    masked += material.alpha_mode == AlphaMode::mask;
     blended += material.alpha_mode == AlphaMode::blend;
     unlit += source.extensions.contains("KHR_materials_unlit");
     other_textures += source.normalTexture.index >= 0 || source.occlusionTexture.index >= 0 ||
@@ -140,7 +139,6 @@ void load_materials(tinygltf::Model& model, Scene& scene) {
   const auto say = [&](const char* what, size_t count, const char* consequence) {
     if (count > 0) scene.ignored.push_back(fmt::format("{}: {}, {}", what, count, consequence));
   };
-  say("materials with an alpha mask", masked, "their cut-outs cast and receive as opaque for now");
   say("materials with alpha blending", blended, "they cast and receive as opaque");
   say("unlit materials", unlit, "lit like the others");
   say("materials with normal, metallic-roughness, occlusion or emissive textures", other_textures,

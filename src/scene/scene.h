@@ -91,6 +91,9 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
+
+  /// Of such a material only the points are there whose alpha is at least the cut-off.
+  bool masked() const { return alpha_mode == AlphaMode::mask; }
 };
 
 enum class LightType { directional, spot, point };

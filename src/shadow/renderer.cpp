@@ -52,7 +52,7 @@ void Renderer::prepare(Technique& technique, int width_px, int height_px, const 
   common_ = {};
   common_.samples = technique.samples();
   const bool micro_quads = common_.samples.count() > 1;
-  gbuffer_.resize(width_px, height_px, micro_quads, buffers_.windows());
+  gbuffer_.resize(width_px, height_px, micro_quads, buffers_);
   bounds_.prepare(micro_quads, technique.grid().cascades);
   samples_block_.set(make_sample_frame(common_.samples, technique.grid()));
   shade_.resize(width_px, height_px);
@@ -64,7 +64,10 @@ void Renderer::prepare(Technique& technique, int width_px, int height_px, const 
   common_.height_px = height_px;
   common_.gbuffer = &gbuffer_.gbuffer();
   common_.first_triangle = &buffers_.draw_list().first_triangle;
-  common_.draw_casters = [this] { buffers_.draw_casters(); };
+  common_.draw_casters = [this](Drawn drawn) { buffers_.draw_casters(drawn); };
+  common_.masked_casters = has_masked(buffers_.draw_list());
+  common_.scene = &scene_;
+  common_.draw_list = &buffers_.draw_list();
   common_.triangles_vs = [this]() -> const std::vector<glm::vec3>& {
     if (triangles_vs_.empty()) triangles_vs_ = flatten(scene_, buffers_.draw_list(), instances_);
     return triangles_vs_;

@@ -3,6 +3,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <array>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "frame/read_back.h"
@@ -13,6 +14,7 @@
 #include "shadow/ray_traced/receivers.h"
 #include "shadow/renderer.h"
 #include "shared/coverage.h"
+#include "shared/hits.h"
 #include "shared/occlusion.h"
 #include "shared_fixture.h"
 
@@ -67,6 +69,45 @@ inline Scene tangle(uint32_t seed, int count) {
   return scene;
 }
 
+/// The alpha masks of a frame's triangles, as the shaders read them.
+struct ShaderMasks {
+  std::vector<shared::MaterialFrame> materials;
+  std::vector<uint8_t> texels;
+  std::vector<uint32_t> material_of;             ///< of each triangle
+  std::vector<std::array<glm::vec2, 3>> uvs_of;  ///< of each triangle's corners
+
+  ShaderMasks() = default;
+  ShaderMasks(const Scene& scene, const DrawList& list) {
+    const AlphaMaps maps = plan_alpha_maps(scene);
+    materials = make_materials(scene, maps);
+    texels = join_alpha_maps(scene, maps);
+    for (const DrawPart& part : list.parts) {
+      const Mesh& mesh = scene.meshes[scene.instances[part.instance].mesh];
+      const size_t first = 3 * size_t(part.mesh_triangle), end = first + 3 * size_t(part.triangle_count);
+      for (size_t i = first; i < end; i += 3) {
+        material_of.push_back(mesh.material);
+        const auto uv = [&](size_t k) { return mesh.uvs.empty() ? glm::vec2(0.0f) : mesh.uvs[mesh.indices[i + k]]; };
+        uvs_of.push_back({uv(0), uv(1), uv(2)});
+      }
+    }
+  }
+
+  bool masked(size_t triangle) const {
+    return triangle < material_of.size() && shared::is_masked(materials[material_of[triangle]]);
+  }
+  bool is_there(size_t triangle, const glm::dvec2& texel) const {
+    const shared::AlphaMap map = shared::alpha_map(materials[material_of[triangle]]);
+    const shared::AlphaTexels t = shared::alpha_texels(map, texel);
+    const glm::vec4 alpha(texels.at(size_t(t.index.x)), texels.at(size_t(t.index.y)), texels.at(size_t(t.index.z)),
+                          texels.at(size_t(t.index.w)));
+    return shared::passes_cutoff(map, alpha, t.between);
+  }
+  shared::TexelCorners corners(size_t triangle, const std::array<glm::vec2, 3>& uv) const {
+    const shared::MaterialFrame& m = materials[material_of[triangle]];
+    return {shared::texel_position(m, uv[0]), shared::texel_position(m, uv[1]), shared::texel_position(m, uv[2])};
+  }
+};
+
 /// One frame and everything read back, top row first.
 struct Frame {
   std::vector<uint32_t> mask;
@@ -76,6 +117,8 @@ struct Frame {
   std::vector<shared::LightWindow> windows;  ///< of each layer
   shared::CascadeRange range;
   std::vector<glm::vec3> triangles_vs;
+  reference::Triangles triangles;  ///< the same, with their alpha masks
+  ShaderMasks masks;
   reference::Receivers receivers;
   reference::LightPoint light;
   Counts counts;
@@ -119,6 +162,8 @@ inline Frame render_frame(Renderer& renderer, Technique& technique, const Camera
   frame.range = renderer.bounds().read_cascades();
   frame.gbuffer = read_gbuffer(*frame.inputs.gbuffer);
   frame.triangles_vs = frame.inputs.triangles_vs();
+  frame.triangles = make_triangles(frame.inputs);
+  if (frame.inputs.masked_casters) frame.masks = ShaderMasks(*frame.inputs.scene, *frame.inputs.draw_list);
   frame.receivers = make_receivers(frame.gbuffer, frame.inputs);
   frame.light = make_light_point(frame.inputs.light);
   if (std::vector<float> lengths = technique.list_lengths(frame.inputs); !lengths.empty())
@@ -146,14 +191,37 @@ inline std::vector<uint32_t> brute_force_mask(const Frame& frame) {
   for (size_t i = 0; i < mask.size(); ++i) {
     if (frame.receivers.classes[i] != reference::PixelClass::receiver) continue;
     const float t = frame.gbuffer.eye_distance[i];
-    for (size_t k = 0; k < frame.triangles_vs.size() / 3 && mask[i] == 0u; ++k)
-      if (k != frame.receivers.own_triangle[i] &&
-          shared::occludes(frame.inputs.camera, frame.inputs.light, frame.triangles_vs[3 * k],
-                           frame.triangles_vs[3 * k + 1], frame.triangles_vs[3 * k + 2], frame.receivers.points_vs[i],
-                           t))
-        mask[i] = 0xffffffffu;
+    for (size_t k = 0; k < frame.triangles_vs.size() / 3 && mask[i] == 0u; ++k) {
+      const glm::vec3* v = &frame.triangles_vs[3 * k];
+      const glm::vec3& p = frame.receivers.points_vs[i];
+      if (k == frame.receivers.own_triangle[i] ||
+          !shared::occludes(frame.inputs.camera, frame.inputs.light, v[0], v[1], v[2], p, t))
+        continue;
+      if (frame.masks.masked(k) &&
+          !frame.masks.is_there(
+              k, shared::texel_of_weights(frame.masks.corners(k, frame.masks.uvs_of[k]),
+                                          shared::light_weights(frame.inputs.light, p, v[0], v[1], v[2]))))
+        continue;
+      mask[i] = 0xffffffffu;
+    }
   }
   return mask;
+}
+
+/// Those of a masked triangle's bits whose samples hit what is there.
+inline uint32_t uncut_words(const Frame& frame, size_t k, const glm::ivec2& px, const glm::vec4& quad, uint32_t bits) {
+  const FrameInputs& in = frame.inputs;
+  glm::vec3 a = frame.triangles_vs[3 * k], b = frame.triangles_vs[3 * k + 1], c = frame.triangles_vs[3 * k + 2];
+  std::array<glm::vec2, 3> uv = frame.masks.uvs_of[k];
+  shared::order_with_uvs(a, b, c, uv[0], uv[1], uv[2]);
+  const shared::HitPlanes hits =
+      shared::hit_planes(shared::quad_planes(in.camera, in.light, a, b, c, px, quad), frame.masks.corners(k, uv));
+  uint32_t kept = 0;
+  for (int s = 0; s < 32; ++s)
+    if ((bits >> s & 1u) != 0 &&
+        frame.masks.is_there(k, shared::texel_of_sample(hits, in.samples.offsets_px[size_t(s)])))
+      kept |= 1u << s;
+  return kept;
 }
 
 inline std::vector<uint32_t> brute_force_words(const Frame& frame) {
@@ -167,8 +235,11 @@ inline std::vector<uint32_t> brute_force_words(const Frame& frame) {
       const glm::vec3* v = &frame.triangles_vs[3 * k];
       const shared::QuadPlanes planes =
           shared::quad_planes(in.camera, in.light, v[0], v[1], v[2], px, frame.gbuffer.micro_quad[i]);
+      uint32_t bits = 0;
       for (int s = 0; s < 32; ++s)
-        if (shared::occluded_sample(planes, in.samples.offsets_px[size_t(s)])) mask[i] |= 1u << s;
+        if (shared::occluded_sample(planes, in.samples.offsets_px[size_t(s)])) bits |= 1u << s;
+      if (bits != 0u && frame.masks.masked(k)) bits = uncut_words(frame, k, px, frame.gbuffer.micro_quad[i], bits);
+      mask[i] |= bits;
     }
   }
   return mask;
@@ -192,7 +263,7 @@ inline size_t receivers(const Frame& frame) {
 
 /// Settles the mask against rays; expects no unexplained bit.
 inline reference::Settled expect_explained(const Frame& frame) {
-  const reference::Triangles triangles{frame.triangles_vs};
+  const reference::Triangles& triangles = frame.triangles;
   const reference::RayTracer tracer(triangles);
   const reference::MaskTrace traced = tracer.trace_mask(frame.light, frame.receivers);
   reference::Settled settled = reference::settle(triangles, frame.light, frame.receivers, frame.mask, traced.mask);

@@ -119,7 +119,7 @@ const std::map<std::string, Block> blocks{
      {sizeof(MaterialFrame),
       true,
       {FIELD("materials[0]", MaterialFrame, base_color), FIELD("materials[0]", MaterialFrame, uv_u),
-       FIELD("materials[0]", MaterialFrame, uv_v)}}},
+       FIELD("materials[0]", MaterialFrame, uv_v), FIELD("materials[0]", MaterialFrame, alpha)}}},
     {"PairBlock",
      {sizeof(UnsurePair),
       true,

@@ -63,6 +63,24 @@ Scene textured() {
   return scene;
 }
 
+TEST(Memory, OfAlphaMapsIsAByteATexelOfMaskedMaterials) {
+  Scene scene = textured();
+  Texture& texture = scene.textures[0];
+  texture.width_px = 130;
+  texture.rgba.assign(size_t(130) * 5 * 4, 128);
+  const auto scene_parts = [&] { return by_part(SceneBuffers::memory_needed(scene, make_draw_list(scene))); };
+  EXPECT_FALSE(scene_parts().contains("alpha maps"));
+  scene.materials[0].alpha_mode = AlphaMode::mask;
+  EXPECT_EQ(scene_parts().at("alpha maps"), 1u + 130u * 5u);
+  EXPECT_EQ(SceneBuffers(scene, make_draw_list(scene), capabilities()).bytes(),
+            gpu::bytes_of(SceneBuffers::memory_needed(scene, make_draw_list(scene))));
+  gpu::Capabilities little = capabilities();
+  little.max_buffer_texels = 650;
+  const std::string sentence = error_of([&] { SceneBuffers(scene, make_draw_list(scene), little); });
+  EXPECT_NE(sentence.find("'alpha maps'"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("buffer textures stop at 650 texels"), std::string::npos) << sentence;
+}
+
 TEST(Memory, IsWhatWasComputedBefore) {
   const Scene scene = textured();
   Renderer renderer(scene, capabilities());

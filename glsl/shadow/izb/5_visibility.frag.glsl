@@ -2,13 +2,16 @@
 // 5.5 Each fragment walks its texel's list, tests each listed pixel against the triangle, and adds shadow to its mask.
 // Defines, beside those of receivers.glsl and coverage.glsl: LAYERS: several layers; PIPELINE: fetch one node ahead (6.8);
 // COUNT: count fragments and tests; IN_DOUBLE: decide unsure pairs here (when their list overflowed); HW: hardware chose the
-// texels.
+// texels. MASKED: triangles have an alpha mask, see cutout.glsl.
 #include "shared/bindings.h"
 #include "shared/occlusion.h"
 #include "shared/pairs.h"
 #include "shadow/izb/receivers.glsl"
 #ifdef SPP32
 #include "shadow/izb/coverage.glsl"
+#endif
+#ifdef MASKED
+#include "shadow/izb/cutout.glsl"
 #endif
 
 // Without it fragments that z-cull rejects would still have their side effects.
@@ -27,13 +30,53 @@ layout(location = 2) flat in vec3 g_c;
 layout(location = 3) flat in vec4 g_box;
 #endif
 layout(location = 4) flat in uvec2 g_id;
+#ifdef MASKED
+layout(location = 5) flat in vec2 g_uv_a;
+layout(location = 6) flat in vec2 g_uv_b;
+layout(location = 7) flat in vec2 g_uv_c;
+
+layout(std430, binding = BIND_INSTANCES) readonly buffer InstanceBlock { InstanceFrame instances[]; };
+#endif
+#ifdef ALPHA_FRAGMENT
+layout(std140, binding = BIND_WINDOWS) uniform WindowBlock { LightWindow windows[max_layers]; };
+#endif
 
 #ifdef SPP32
-#define Triangle QuadTriangle
-Triangle make_triangle(CameraFrame eye) { return make_quad_triangle(eye, light, g_a, g_b, g_c); }
+#define Planes QuadTriangle
 #else
-#define Triangle TrianglePlanes
-Triangle make_triangle(CameraFrame eye) { return make_planes(light, g_a, g_b, g_c); }
+#define Planes TrianglePlanes
+#endif
+
+struct Triangle {
+  Planes planes;
+#ifdef MASKED
+  Cutout cutout;
+#endif
+};
+
+Triangle make_triangle(CameraFrame eye) {
+  Triangle t;
+#ifdef SPP32
+  t.planes = make_quad_triangle(eye, light, g_a, g_b, g_c);
+#else
+  t.planes = make_planes(light, g_a, g_b, g_c);
+#endif
+#ifdef MASKED
+  t.cutout = make_cutout(instances[g_id.x - 1u].info.y, g_uv_a, g_uv_b, g_uv_c);
+#endif
+  return t;
+}
+
+#ifdef ALPHA_FRAGMENT
+bool is_hole(Triangle t, int layer) {
+#ifdef CUBE
+  LightFrame face = light_face(light, layer / int(light.grid.y));
+#else
+  LightFrame face = light;
+#endif
+  dvec3 weights = fragment_weights(face, windows[layer], gl_FragCoord.xy, g_a, g_b, g_c);
+  return !is_there(t.cutout.map, texel_of_weights(t.cutout.corners, weights));
+}
 #endif
 
 void add_pair(ivec2 px) {
@@ -44,16 +87,27 @@ void add_pair(ivec2 px) {
 // The mask bits of one pair.
 uint test(CameraFrame eye, Triangle triangle, Receiver r, out bool unsure) {
 #ifdef SPP32
-  uint bits = classify_quad(eye, triangle, make_micro_quad(eye, r.px, r.data), unsure);
+  uint bits = classify_quad(eye, triangle.planes, make_micro_quad(eye, r.px, r.data), unsure);
 #ifdef IN_DOUBLE
   if (unsure) bits = occluded_bits(quad_planes(eye, light, g_a, g_b, g_c, r.px, r.data));
 #endif
+#ifdef ALPHA_EXACT
+  bits &= ~known_shadow(r.px);  // whose alpha need not be asked
+  if (bits != 0u) {
+    uint undecided;
+    bits = uncut_bits(triangle.cutout, quad_planes(eye, light, g_a, g_b, g_c, r.px, r.data), bits, undecided);
+    if (undecided != 0u) counters.unfinished = 1u;
+  }
+#endif
 #else
   vec3 p = receiver_point(eye, vec2(r.px) + 0.5, r.data.x);
-  int answer = classify(eye, triangle, p, r.data.x);
+  int answer = classify(eye, triangle.planes, p, r.data.x);
   unsure = answer == pair_unsure;
 #ifdef IN_DOUBLE
   if (unsure) answer = occludes(eye, light, g_a, g_b, g_c, p, r.data.x) ? pair_in : pair_out;
+#endif
+#ifdef ALPHA_EXACT
+  if (answer == pair_in && !is_uncut(triangle.cutout, light, p, g_a, g_b, g_c)) answer = pair_out;
 #endif
   uint bits = answer == pair_in ? 0xffffffffu : 0u;
 #endif
@@ -114,6 +168,9 @@ void main() {
   ivec3 head_texel = ivec3(gl_FragCoord.xy, gl_Layer);
 #else
   ivec3 head_texel = ivec3(gl_FragCoord.xy, 0);
+#endif
+#ifdef ALPHA_FRAGMENT
+  if (is_hole(triangle, head_texel.z)) discard;
 #endif
   Walk w;
   w.previous.node = no_node;

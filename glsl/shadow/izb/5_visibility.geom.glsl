@@ -4,7 +4,6 @@
 // REST: only what 5_visibility_hw.geom.glsl leaves.
 layout(triangles) in;
 #include "shadow/izb/vertices.glsl"
-#include "shared/coverage.h"
 #include "shared/footprint.h"
 #include "shared/occlusion.h"
 #include "shared/pyramid.h"
@@ -46,11 +45,9 @@ bool behind_all(Footprint f, int layer) {
 }
 #endif
 
-void emit(vec3 corner, Footprint f, vec3 a, vec3 b, vec3 c, int layer) {
+void emit(vec3 corner, Footprint f, Vertices v, int layer) {
   gl_Position = vec4(corner.xy * (2.0 / float(light.grid.x)) - 1.0, corner.z, 1.0);
-  g_a = a;
-  g_b = b;
-  g_c = c;
+  hand_over(v);
   g_box = f.box;
   g_id = uvec2(v_instance[0] + 1u, uint(gl_PrimitiveIDIn));
 #ifdef LAYERS
@@ -59,13 +56,13 @@ void emit(vec3 corner, Footprint f, vec3 a, vec3 b, vec3 c, int layer) {
   EmitVertex();
 }
 
-void spawn(vec3 a, vec3 b, vec3 c, int layer) {
+void spawn(Vertices v, int layer) {
 #ifdef CUBE
   LightFrame face = light_face(light, layer / int(light.grid.y));
 #else
   LightFrame face = light;
 #endif
-  Footprint f = make_footprint(face, windows[layer], a, b, c, dilation);
+  Footprint f = make_footprint(face, windows[layer], v.a, v.b, v.c, dilation);
   if (f.count == 0) return;
 #ifdef REST
   if (f.square <= hardware_square) return;
@@ -76,23 +73,20 @@ void spawn(vec3 a, vec3 b, vec3 c, int layer) {
 #ifdef COUNT
   atomicAdd(counters.triangles, 1u);
 #endif
-  emit(f.p0, f, a, b, c, layer);
-  emit(f.p1, f, a, b, c, layer);
-  emit(f.p2, f, a, b, c, layer);
-  if (f.count == 4) emit(f.p3, f, a, b, c, layer);
+  emit(f.p0, f, v, layer);
+  emit(f.p1, f, v, layer);
+  emit(f.p2, f, v, layer);
+  if (f.count == 4) emit(f.p3, f, v, layer);
   EndPrimitive();
 }
 
 void main() {
-  vec3 a = v_position_vs[0], b = v_position_vs[1], c = v_position_vs[2];
-  if (holds_light(light, a, b, c)) return;
-#ifdef SPP32
-  order_vertices(a, b, c);  // once a triangle
-#endif
+  if (holds_light(light, v_position_vs[0], v_position_vs[1], v_position_vs[2])) return;
+  Vertices v = make_vertices();
 #ifdef LAYERS
   for (int layer = layers.x; layer < layers.y; ++layer)
-    if (windows[layer].guard.y != 0.0) spawn(a, b, c, layer);  // a face that no receiver is seen through costs nothing
+    if (windows[layer].guard.y != 0.0) spawn(v, layer);  // a face that no receiver is seen through costs nothing
 #else
-  spawn(a, b, c, 0);
+  spawn(v, 0);
 #endif
 }

@@ -1,6 +1,6 @@
 #version 450 core
 // 5.5 Spawning triangle visibility tests: vertices to view space, where the test takes place.
-// HW: to the light-space grid, too, where hardware rasterises them conservatively.
+// HW: to the light-space grid, too, where hardware rasterises them conservatively. MASKED: with what their alpha mask takes.
 #include "shared/bindings.h"
 #include "shared/camera.h"
 
@@ -26,10 +26,17 @@ layout(location = ATTRIBUTE_INSTANCE) in uint instance_index;
 
 layout(location = 0) out vec3 v_position_vs;
 layout(location = 1) flat out uint v_instance;
+#ifdef MASKED
+layout(location = ATTRIBUTE_UV) in vec2 uv;
+layout(location = 5) out vec2 v_uv;
+#endif
 
 void main() {
   v_position_vs = view_from_object(instances[instance_index], position);
   v_instance = instance_index;
+#ifdef MASKED
+  v_uv = uv;
+#endif
 #ifdef HW
   vec3 corner = hardware_vertex(light_face(light, layers.x / int(light.grid.y)), windows[layers.x], v_position_vs);
   gl_Position = vec4((corner.xy + shift) * (2.0 / float(light.grid.x)) - 1.0, corner.z, 1.0);

@@ -5,7 +5,6 @@
 layout(triangles) in;
 layout(passthrough) in gl_PerVertex { vec4 gl_Position; } gl_in[];
 #include "shadow/izb/vertices.glsl"
-#include "shared/coverage.h"
 #ifdef LAYERS
 layout(location = 2) uniform ivec2 layers;
 #endif
@@ -23,12 +22,7 @@ void main() {
 #endif
     left_out = left_out || min(light_position(face, a).z, min(light_position(face, b).z, light_position(face, c).z)) <= 0.0;
   }
-#ifdef SPP32
-  order_vertices(a, b, c);
-#endif
-  g_a = a;
-  g_b = b;
-  g_c = c;
+  hand_over(make_vertices());
   g_id = left_out ? uvec2(0u) : uvec2(v_instance[0] + 1u, uint(gl_PrimitiveIDIn));
 #ifdef LAYERS
   gl_Layer = layers.x;

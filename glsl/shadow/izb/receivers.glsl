@@ -56,6 +56,15 @@ void unlink_after(Receiver previous, ivec3 head_texel, uint next) {
 }
 #endif
 
+// Bits that the mask has, as far as is known, if the options allow to look.
+uint known_shadow(ivec2 px) {
+#if defined(REMOVAL) || defined(SKIP)
+  return imageLoad(mask, px).x;
+#else
+  return 0u;
+#endif
+}
+
 // Returns whether the word changed, as far as is known.
 bool add_shadow(ivec2 px, uint bits) {
 #ifdef SPP32

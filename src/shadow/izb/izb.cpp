@@ -75,7 +75,7 @@ void Izb::resize(const FrameShape& shape) {
 }
 
 void Izb::render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) {
-  programs_.prepare(light_kind(in.light));
+  programs_.prepare(light_kind(in.light), in.masked_casters);
   {
     const gpu::StageTimers::Scope scope(timers, name(Stage::build));
     build(in);
@@ -185,37 +185,47 @@ void Izb::bind_lists(const Visibility& out) const {
 }
 
 // The triangles as they are: a passthrough geometry shader makes no polygons and reaches one layer.
-void Izb::draw_by_hardware(const FrameInputs& in, IzbProgram program) {
-  programs_[program].use();
+void Izb::draw_by_hardware(const FrameInputs& in, IzbProgram program, Drawn drawn) {
+  programs_.get(program, drawn == Drawn::masked).use();
   hardware_.begin();
   for (const glm::vec2& shift : hardware_.shifts())
     for (int layer = 0; layer < layers_of(in); ++layer) {
       glUniform2f(4, shift.x, shift.y);
       if (layers_of(in) > 1) glUniform2i(2, layer, layer + 1);
-      in.draw_casters();
+      in.draw_casters(drawn);
     }
   hardware_.end();
 }
 
 // Every caster once for as many layers as one pass reaches. Of what hardware rasterises only the rest, that it does not
 // surely cover.
+void Izb::draw_by_footprint(const FrameInputs& in, IzbProgram program, Drawn drawn) {
+  programs_.get(program, drawn == Drawn::masked).use();
+  glUniform1f(1, static_cast<float>(built_.dilation()));
+  if (built_.hardware()) glUniform1f(3, hardware_.square());
+  const int layers = layers_of(in), pass_layers = built_.layers_a_pass(static_cast<int>(in.light.grid.z));
+  for (int first = 0; first < layers; first += pass_layers) {
+    if (layers > 1) glUniform2i(2, first, std::min(first + pass_layers, layers));
+    in.draw_casters(drawn);
+  }
+}
+
+// Opaque casters do not pay for what the masks of others take.
 void Izb::draw(const FrameInputs& in, const Pass& pass) {
   if (pass.culled) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDepthMask(GL_FALSE);
   }
-  if (built_.hardware())
-    draw_by_hardware(in, pass.program == IzbProgram::visibility             ? IzbProgram::hardware
-                         : pass.program == IzbProgram::visibility_in_double ? IzbProgram::hardware_in_double
-                                                                            : IzbProgram::hardware_counted);
-  programs_[pass.program].use();
-  glUniform1f(1, static_cast<float>(built_.dilation()));
-  if (built_.hardware()) glUniform1f(3, hardware_.square());
-  const int layers = layers_of(in), pass_layers = built_.layers_a_pass(static_cast<int>(in.light.grid.z));
-  for (int first = 0; first < layers; first += pass_layers) {
-    if (layers > 1) glUniform2i(2, first, std::min(first + pass_layers, layers));
-    in.draw_casters();
+  const bool apart = in.masked_casters && built_.alpha_masks();
+  for (const Drawn drawn : apart ? std::vector{Drawn::opaque, Drawn::masked} : std::vector{Drawn::all}) {
+    if (built_.hardware())
+      draw_by_hardware(in,
+                       pass.program == IzbProgram::visibility             ? IzbProgram::hardware
+                       : pass.program == IzbProgram::visibility_in_double ? IzbProgram::hardware_in_double
+                                                                          : IzbProgram::hardware_counted,
+                       drawn);
+    draw_by_footprint(in, pass.program, drawn);
   }
   glDisable(GL_DEPTH_TEST);
 }
@@ -234,7 +244,9 @@ void Izb::visibility(const FrameInputs& in, Visibility& out, const Pass& pass) {
   draw(in, pass);
 
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  programs_[IzbProgram::settle].dispatch(64 * 16, 1, 64, 1);
+  const bool masks = in.masked_casters && knows_masks(IzbProgram::settle, built_);
+  // A pair of a mask takes up to nine rounds of loops.
+  programs_.get(IzbProgram::settle, masks).dispatch(masks ? 64 * 256 : 64 * 16, 1, 64, 1);
 
   glBindVertexArray(no_attributes_.name());
   glBeginQuery(GL_ANY_SAMPLES_PASSED, overflow_.name());

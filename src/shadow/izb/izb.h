@@ -65,7 +65,8 @@ class Izb final : public Technique {
   void visibility(const FrameInputs& in, Visibility& out, const Pass& pass);
   void bind_lists(const Visibility& out) const;
   void draw(const FrameInputs& in, const Pass& pass);
-  void draw_by_hardware(const FrameInputs& in, IzbProgram program);
+  void draw_by_footprint(const FrameInputs& in, IzbProgram program, Drawn drawn);
+  void draw_by_hardware(const FrameInputs& in, IzbProgram program, Drawn drawn);
   shared::Counters visibility_counted(const FrameInputs& in, Visibility& out, const Pass& pass);
 
   void restore_lists(const FrameInputs& in);

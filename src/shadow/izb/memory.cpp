@@ -43,8 +43,8 @@ gpu::Plan Izb::memory_needed(const FrameShape& shape) const {
     plan.push_back(gpu::planned_buffer(part, kind, bytes, std::move(reduce)));
   };
   if (s.table())
-    buffer("table", Kind::buffer_texture,
-           sizeof(uint32_t) * uint64_t(s.table_side()) * uint64_t(shared::table_columns(s.table_side())));
+    plan.push_back(gpu::planned_buffer_texture(
+        "table", GL_R32UI, uint64_t(s.table_side()) * uint64_t(shared::table_columns(s.table_side())), {}));
   buffer("pairs", Kind::storage_buffer,
          sizeof(shared::UnsurePair) * static_cast<uint64_t>(s.pairs(width_px, height_px)), {"--pairs"});
   buffer("pairs", Kind::storage_buffer, sizeof(shared::Counters));

@@ -23,7 +23,12 @@ bool counts(IzbProgram program) {
 
 }  // namespace
 
-gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, LightKind light) {
+bool knows_masks(IzbProgram program, const IzbSettings& settings) {
+  if (program == IzbProgram::settle) return settings.alpha == "exact";  // else the walk has asked before
+  return settings.alpha_masks() && program >= IzbProgram::visibility && program <= IzbProgram::hardware_counted;
+}
+
+gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, LightKind light, bool masked) {
   const std::string folder = "shadow/izb/";
   gpu::Defines defines;
   const auto define = [&](bool on, const char* name) {
@@ -35,6 +40,8 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
     define(s.many_samples(), "SPP32");
     define(s.table(), "TABLE");
     define(s.pool(), "POOL");
+    define(masked, "MASKED");
+    define(masked, s.alpha == "exact" ? "ALPHA_EXACT" : "ALPHA_FRAGMENT");
   };
   const int faces = light == LightKind::cube ? shared::cube_faces : 1;
   const auto fragment_defines = [&](const char* variant) {
@@ -120,13 +127,15 @@ std::vector<gpu::ProgramSpec> izb_program_specs() {
     for (int p = 0; p < static_cast<int>(IzbProgram::count); ++p) {
       const IzbProgram program = static_cast<IzbProgram>(p);
       if (!belongs(program, settings)) continue;
-      for (const LightKind light : {LightKind::directional, LightKind::positional, LightKind::cube}) {
-        gpu::ProgramSpec spec = izb_program_spec(program, settings, light);
-        const bool known = std::any_of(all.begin(), all.end(), [&](const gpu::ProgramSpec& other) {
-          return other.files == spec.files && other.defines == spec.defines;
-        });
-        if (!known) all.push_back(std::move(spec));
-      }
+      for (const LightKind light : {LightKind::directional, LightKind::positional, LightKind::cube})
+        for (const bool masked : {false, true}) {
+          if (masked && !knows_masks(program, settings)) continue;
+          gpu::ProgramSpec spec = izb_program_spec(program, settings, light, masked);
+          const bool known = std::any_of(all.begin(), all.end(), [&](const gpu::ProgramSpec& other) {
+            return other.files == spec.files && other.defines == spec.defines;
+          });
+          if (!known) all.push_back(std::move(spec));
+        }
     }
   };
   add({});
@@ -159,18 +168,23 @@ std::vector<gpu::ProgramSpec> izb_program_specs() {
 }
 
 IzbPrograms::IzbPrograms(const IzbSettings& settings) : settings_(settings) {
-  for (std::vector<gpu::Program>& kind : programs_) kind.resize(static_cast<size_t>(IzbProgram::count));
+  for (auto& kind : programs_)
+    for (std::vector<gpu::Program>& part : kind) part.resize(static_cast<size_t>(IzbProgram::count));
 }
 
-void IzbPrograms::prepare(LightKind light) {
+void IzbPrograms::prepare(LightKind light, bool masked_casters) {
   light_ = light;
-  for (int p = 0; p < static_cast<int>(IzbProgram::count); ++p)
-    if (const IzbProgram each = static_cast<IzbProgram>(p); belongs(each, settings_) && !counts(each)) (*this)[each];
+  for (int p = 0; p < static_cast<int>(IzbProgram::count); ++p) {
+    const IzbProgram each = static_cast<IzbProgram>(p);
+    if (!belongs(each, settings_) || counts(each)) continue;
+    for (const bool masked : {false, true})
+      if (!masked || (masked_casters && knows_masks(each, settings_))) get(each, masked);
+  }
 }
 
-const gpu::Program& IzbPrograms::operator[](IzbProgram program) {
-  gpu::Program& made = programs_[static_cast<size_t>(light_)][static_cast<size_t>(program)];
-  if (!made) made = gpu::Program(izb_program_spec(program, settings_, light_));
+const gpu::Program& IzbPrograms::get(IzbProgram program, bool masked) {
+  gpu::Program& made = programs_[static_cast<size_t>(light_)][masked][static_cast<size_t>(program)];
+  if (!made) made = gpu::Program(izb_program_spec(program, settings_, light_, masked));
   return made;
 }
 

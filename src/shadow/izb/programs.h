@@ -31,7 +31,12 @@ enum class IzbProgram {
 /// A cube is a positional light with six grids.
 enum class LightKind { directional, positional, cube };
 
-gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& settings, LightKind light);
+/// Whether it has a variant for casters with an alpha mask.
+bool knows_masks(IzbProgram program, const IzbSettings& settings);
+
+/// `masked`: of casters with an alpha mask; of `settle`, of casters among which there are such.
+gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& settings, LightKind light,
+                                  bool masked = false);
 
 /// Every program of the defaults, of each option alone from the defaults, and of the presets, for each kind of light.
 std::vector<gpu::ProgramSpec> izb_program_specs();
@@ -41,15 +46,17 @@ class IzbPrograms {
  public:
   IzbPrograms() = default;
   explicit IzbPrograms(const IzbSettings& settings);
-  /// Compiles what frames under such a light need, so that nothing is compiled within a stage.
-  void prepare(LightKind light);
+  /// Compiles what frames under such a light need, with masked casters or without, so that nothing is compiled within a
+  /// stage.
+  void prepare(LightKind light, bool masked_casters);
   /// Of the light that was prepared last; compiles if it must.
-  const gpu::Program& operator[](IzbProgram program);
+  const gpu::Program& operator[](IzbProgram program) { return get(program, false); }
+  const gpu::Program& get(IzbProgram program, bool masked);
 
  private:
   IzbSettings settings_;
   LightKind light_ = LightKind::directional;
-  std::vector<gpu::Program> programs_[3];
+  std::vector<gpu::Program> programs_[3][2];  ///< by the kind of light, and whether of masked casters
 };
 
 }  // namespace izb

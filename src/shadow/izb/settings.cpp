@@ -21,6 +21,10 @@ OptionSet IzbSettings::options() {
   set.integer("nodes", nodes, 1, 8, "nodes", "at most so many a pixel, but for exact insertion (6.1)");
   set.number("dilation", dilation_texels, 0.5, 4.0, "texels",
              "by which triangles grow in light space (6.1); exact insertion needs and takes 0.5");
+  set.choice(
+      "alpha", alpha, {"exact", "fragment", "off"},
+      "of casters with an alpha mask: asked where each sample's line to the light meets them, once a fragment of "
+      "the light-space grid, or not at all, so that they cast as opaque");
   set.choice("raster", raster, {"gs", "hw"},
              "dilate triangles in a geometry shader, or by the hardware's conservative rasteriser and a pass-through "
              "geometry shader, which NVIDIA GPUs have since GM204 (7)");
@@ -60,13 +64,14 @@ void IzbSettings::apply(const std::string& preset) {
     sampling = {"32", "halton"};
     lut = "32";
     insertion = "nv";
+    alpha = "fragment";
     cascades = 4;
     cascade_pass = "multiple";
     grid_density = 0.0;
     removal = unchanged_skip = pipelining = true;
   } else if (preset == "exact") {
     sampling.spp = "32";
-    coverage = insertion = "exact";
+    coverage = insertion = alpha = "exact";
     pair_capacity = 1 << 22;
   } else {
     throw UsageError(fmt::format("unknown preset '{}': there are {}", preset, fmt::join(preset_names(), ", ")));

@@ -15,7 +15,8 @@ struct IzbSettings {
   static constexpr int by_size = -1;  ///< of pair_capacity
 
   SampleOptions sampling;
-  std::string coverage = "lut", lut = "64", insertion = "approximate", cascade_pass = "single", raster = "gs";
+  std::string coverage = "lut", lut = "64", insertion = "approximate", cascade_pass = "single", raster = "gs",
+              alpha = "exact";
   int grid = 2048, nodes = 8, cascades = 1;
   double dilation_texels = 1.0, grid_density = 4.0;
   bool zcull = true, zcull_pyramid = true, nl_cull = true;
@@ -36,6 +37,7 @@ struct IzbSettings {
   bool many_samples() const { return sampling.spp != "1"; }
   bool table() const { return many_samples() && coverage == "lut"; }
   bool pool() const { return many_samples() && insertion == "exact"; }
+  bool alpha_masks() const { return alpha != "off"; }
   bool hardware() const { return raster == "hw"; }
   bool pyramid() const { return zcull && zcull_pyramid; }
   int table_side() const { return std::stoi(lut); }

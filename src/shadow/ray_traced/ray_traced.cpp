@@ -46,7 +46,7 @@ class RayTraced final : public Technique {
     const auto quality = quality_ == "low"      ? reference::BuildQuality::low
                          : quality_ == "medium" ? reference::BuildQuality::medium
                                                 : reference::BuildQuality::high;
-    const reference::RayTracer tracer({in.triangles_vs()}, quality);
+    const reference::RayTracer tracer(make_triangles(in), quality);
     const reference::Receivers receivers = make_receivers(read_gbuffer(*in.gbuffer), in);
     const reference::MaskTrace traced = tracer.trace_mask(make_light_point(in.light), receivers);
     const std::vector<uint32_t> bottom_first = flip_rows(traced.mask, in.width_px, in.height_px);

@@ -42,6 +42,31 @@ reference::Receivers make_receivers(const GBufferImage& image, const FrameInputs
   return receivers;
 }
 
+reference::Triangles make_triangles(const FrameInputs& in) {
+  reference::Triangles triangles{in.triangles_vs()};
+  if (!in.masked_casters || !in.scene || !in.draw_list) return triangles;
+  auto cutouts = std::make_shared<reference::Cutouts>(*in.scene);
+  for (const DrawPart& part : in.draw_list->parts) {
+    const Mesh& mesh = in.scene->meshes[in.scene->instances[part.instance].mesh];
+    if (in.scene->materials[mesh.material].alpha_mode != AlphaMode::mask) {
+      cutouts->add_opaque(part.triangle_count);
+      continue;
+    }
+    const size_t first = 3 * size_t(part.mesh_triangle), end = first + 3 * size_t(part.triangle_count);
+    for (size_t i = first; i < end; i += 3) {
+      if (mesh.uvs.empty()) {
+        cutouts->add(mesh.material, nullptr);
+        continue;
+      }
+      const glm::vec2 uvs[3] = {mesh.uvs[mesh.indices[i]], mesh.uvs[mesh.indices[i + 1]],
+                                mesh.uvs[mesh.indices[i + 2]]};
+      cutouts->add(mesh.material, uvs);
+    }
+  }
+  triangles.cutouts = std::move(cutouts);
+  return triangles;
+}
+
 reference::LightPoint make_light_point(const shared::LightFrame& light) {
   const bool positional = shared::is_positional(light);
   return {positional ? glm::vec3(light.origin) : glm::vec3(light.to_light), positional, light.axis_x.w};

@@ -11,6 +11,9 @@ namespace izb {
 /// explained. The frame's shadow samples lie on the tangent plane of each pixel's own triangle, computed in double.
 reference::Receivers make_receivers(const GBufferImage& image, const FrameInputs& in);
 
+/// The frame's triangles, and the alpha masks of those that have one.
+reference::Triangles make_triangles(const FrameInputs& in);
+
 reference::LightPoint make_light_point(const shared::LightFrame& light);
 
 }  // namespace izb
