@@ -348,7 +348,7 @@ TEST_F(Output, InfoSaysThatBlendIsOpaque) {
   gltf.root["meshes"][0]["primitives"][0]["material"] = 0;
   const Outcome outcome = izb::test::izb({"info", write_file(folder / "glass.glb", gltf.glb())});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(outcome.prints("1 blended: they cast and receive as opaque")) << outcome.out;
+  EXPECT_TRUE(outcome.prints("1 blended, which cast and receive as opaque")) << outcome.out;
 }
 
 TEST_F(Output, InfoTellsTheContextAndTheScene) {
