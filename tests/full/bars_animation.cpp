@@ -47,7 +47,7 @@ TEST_F(BarsAnimation, SixHundredFramesHoldTheirMemory) {
   for (const fs::path& scene : scenes) {
     const std::string name = scene.stem();
     if (name != "stk_tux_animated" && name != "morse_human_rig") continue;
-    const std::string shared[] = {"--size", "1280x720", "--views", views, "--viewpoint", name,
+    const std::string shared[] = {"--size", "640x360", "--views", views, "--viewpoint", name,
                                   "--fps",  "30",       "--loop",  "on",  "--animation", "0"};
     std::vector<std::string> words{IZB_PROGRAM, "render", scene, "--frames", "0:599", "-o", folder / "frame.exr"};
     words.insert(words.end(), std::begin(shared), std::end(shared));
