@@ -48,7 +48,7 @@ TEST_F(BarsAnimation, SixHundredFramesHoldTheirMemory) {
     const std::string name = scene.stem();
     if (name != "stk_tux_animated" && name != "morse_human_rig") continue;
     const std::string shared[] = {"--size", "640x360", "--views", views, "--viewpoint", name,
-                                  "--fps",  "30",       "--loop",  "on",  "--animation", "0"};
+                                  "--fps",  "30",      "--loop",  "on",  "--animation", "0"};
     std::vector<std::string> words{IZB_PROGRAM, "render", scene, "--frames", "0:599", "-o", folder / "frame.exr"};
     words.insert(words.end(), std::begin(shared), std::end(shared));
     const std::vector<size_t> resident = memory_by_line(words);
