@@ -13,6 +13,11 @@
 #include "scene/procedural.h"
 
 namespace izb {
+
+void PrintTo(const Procedural& scene, std::ostream* out) {
+  *out << scene.name;
+}
+
 namespace {
 
 using glm::dvec3;
