@@ -36,13 +36,7 @@ struct Builder {
   Random random;
 
   uint32_t material(const char* name, const glm::vec3& color, bool double_sided = false) {
-    Material m;
-    m.name = name;
-    m.base_color = glm::vec4{color, 1.0f};
-    m.metallic = 0.0f;
-    m.roughness = 0.9f;
-    m.double_sided = double_sided;
-    scene.materials.push_back(m);
+    scene.materials.push_back(matte(name, color, double_sided));
     return static_cast<uint32_t>(scene.materials.size() - 1);
   }
   uint32_t mesh(Mesh m, uint32_t material_index) {

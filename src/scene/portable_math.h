@@ -10,25 +10,23 @@ namespace izb {
 
 namespace portable {
 
-/// sin and cos of x in [-pi/4, pi/4] by their Taylor series; the first term left out is below 1e-19.
-inline double sine_near_0(double x) {
-  const double x2 = x * x;
+/// 1 - y / (k (k + 1)) + y^2 / (k (k + 1) (k + 2) (k + 3)) - ...: Taylor's series of cos for k = 1 and of sin(x) / x
+/// for k = 2, y = x^2. For x in [-pi/4, pi/4] the first term left out is below 1e-19.
+inline double taylor_series(double y, int k) {
   double term = 1.0, sum = 1.0;
-  for (int n = 2; n <= 18; n += 2) {
-    term *= -x2 / (n * (n + 1));
-    sum += term;
-  }
-  return x * sum;
-}
-
-inline double cosine_near_0(double x) {
-  const double x2 = x * x;
-  double term = 1.0, sum = 1.0;
-  for (int n = 1; n <= 19; n += 2) {
-    term *= -x2 / (n * (n + 1));
+  for (int n = k; n <= 19; n += 2) {
+    term *= -y / (n * (n + 1));
     sum += term;
   }
   return sum;
+}
+
+inline double sine_near_0(double x) {
+  return x * taylor_series(x * x, 2);
+}
+
+inline double cosine_near_0(double x) {
+  return taylor_series(x * x, 1);
 }
 
 }  // namespace portable

@@ -14,6 +14,17 @@ namespace izb {
 /// "sunset".
 Scene make_garden(uint32_t seed);
 
+/// What nearly all things of these scenes are made of: no metal, no gloss.
+inline Material matte(const char* name, const glm::vec3& color, bool double_sided) {
+  Material m;
+  m.name = name;
+  m.base_color = glm::vec4{color, 1.0f};
+  m.metallic = 0.0f;
+  m.roughness = 0.9f;
+  m.double_sided = double_sided;
+  return m;
+}
+
 /// One entry of the table of procedural scenes.
 struct Procedural {
   const char* name;

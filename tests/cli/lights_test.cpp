@@ -15,10 +15,6 @@ namespace fs = std::filesystem;
 using namespace izb::test;
 using izb::Image;
 
-json read_json(const fs::path& path) {
-  return json::parse(std::ifstream(path));
-}
-
 /// The roof over the floor with three lights: a sun "noon", a point light "lamp" and a wide spot "beam".
 GltfWriter three_lights() {
   GltfWriter gltf = roof_over_floor();

@@ -17,10 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace izb::test;
 
-nlohmann::json read_json(const fs::path& path) {
-  return nlohmann::json::parse(std::ifstream(path));
-}
-
 /// The text that oiiotool prints for `words`.
 std::string oiiotool(std::vector<std::string> words) {
   words.insert(words.begin(), "oiiotool");

@@ -14,10 +14,6 @@ namespace fs = std::filesystem;
 using namespace izb::test;
 using izb::Image;
 
-json read_json(const fs::path& path) {
-  return json::parse(std::ifstream(path));
-}
-
 /// The roof goes to the left and right within two seconds; a node with a morph target grows and shrinks.
 GltfWriter moving_roof() {
   GltfWriter gltf = roof_over_floor();

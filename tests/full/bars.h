@@ -16,10 +16,6 @@ namespace fs = std::filesystem;
 inline constexpr const char* full_hd = "1920x1080";
 inline const fs::path views = IZB_SOURCE_DIR "/bench/views.json";
 
-inline nlohmann::json read_json(const fs::path& path) {
-  return nlohmann::json::parse(std::ifstream(path));
-}
-
 inline double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const size_t n = values.size();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scene/portable_math.h"
+#include "scene/procedural.h"
 
 namespace izb::procedural {
 
@@ -49,13 +50,7 @@ bool Builder::keeps(double from_detail) {
 }
 
 uint32_t Builder::material(const char* name, const glm::vec3& color, bool double_sided) {
-  Material m;
-  m.name = name;
-  m.base_color = glm::vec4{color, 1.0f};
-  m.metallic = 0.0f;
-  m.roughness = 0.9f;
-  m.double_sided = double_sided;
-  scene_.materials.push_back(m);
+  scene_.materials.push_back(matte(name, color, double_sided));
   batches_.push_back({name, uint32_t(scene_.materials.size() - 1)});
   return uint32_t(scene_.materials.size() - 1);
 }
