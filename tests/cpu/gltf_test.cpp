@@ -397,6 +397,39 @@ TEST_F(Gltf, ASkinPlacesItsMesh) {
   EXPECT_TRUE(says(scene, "skinned primitives: 1, standing in bind pose"));
 }
 
+TEST_F(Gltf, UnusedVerticesGoWithAllThatTheyHave) {
+  GltfWriter gltf;
+  const auto rising = [&](float step) {  // five vectors (n, n + step, 0)
+    std::vector<float> all;
+    for (int n = 0; n < 5; ++n) all.insert(all.end(), {float(n), float(n) + step, 0.0f});
+    return gltf.add_array(all, test::type_float, "VEC3", 3);
+  };
+  json attributes = {{"POSITION", rising(1)}, {"NORMAL", rising(2)}};
+  attributes["JOINTS_0"] = gltf.add_array(
+      std::vector<uint8_t>{0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0, 4, 0, 0, 0}, test::type_uint8, "VEC4", 4);
+  std::vector<float> weights;
+  for (int n = 0; n < 5; ++n) weights.insert(weights.end(), {1.0f, 0.0f, 0.0f, 0.0f});
+  attributes["WEIGHTS_0"] = gltf.add_array(weights, test::type_float, "VEC4", 4);
+  const json targets = {{{"POSITION", rising(3)}, {"NORMAL", rising(4)}}};
+  // Vertex 0 lies before the first that is used, vertex 3 between.
+  const int indices = gltf.add_array(std::vector<uint16_t>{1, 4, 2}, test::type_uint16, "SCALAR", 1);
+  gltf.add_root({{"mesh", gltf.add_mesh({{"attributes", attributes}, {"indices", indices}, {"targets", targets}})}});
+  const Scene scene = load(gltf);
+  const Mesh& mesh = scene.meshes[0];
+  EXPECT_EQ(mesh.indices, (Indices{0, 1, 2}));
+  ASSERT_EQ(mesh.positions.size(), 3u);
+  ASSERT_EQ(mesh.influences, 1u);
+  for (size_t i = 0; i < 3; ++i) {
+    const float n[] = {1, 4, 2};
+    EXPECT_EQ(mesh.positions[i], glm::vec3(n[i], n[i] + 1, 0));
+    EXPECT_LT(glm::distance(mesh.normals[i], glm::normalize(glm::vec3(n[i], n[i] + 2, 0))), 1e-6f);
+    EXPECT_EQ(mesh.targets[0].positions[i], glm::vec3(n[i], n[i] + 3, 0));
+    EXPECT_EQ(mesh.targets[0].normals[i], glm::vec3(n[i], n[i] + 4, 0));
+    EXPECT_EQ(mesh.joints[i], uint16_t(n[i]));
+    EXPECT_EQ(mesh.weights[i], 1.0f);
+  }
+}
+
 TEST_F(Gltf, MorphWeightsOfMeshAndNode) {
   GltfWriter gltf = one_triangle();
   json& mesh = gltf.root["meshes"][0];
