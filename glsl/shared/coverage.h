@@ -13,12 +13,14 @@
 #include "shared/occlusion.h"
 SHARED_BEGIN
 
-// As plane_bias, for the points of a micro-quad: see docs/VALIDATION.md.
-SHARED float quad_bias(IN(CameraFrame) camera, IN(vec3) p, float t, float vertex_norm1, float doubt) {
-  PRECISE float rounding = unit_roundoff * (doubt * norm1(p) + 1.25f * vertex_norm1);
+// As plane_bias, for the points of a micro-quad: see docs/VALIDATION.md. x: what the height must exceed anyway; y: and where
+// the two planes may be one that rounding bent.
+SHARED vec2 quad_bias(IN(CameraFrame) camera, IN(vec3) p, float t, float vertex_norm1, IN(vec2) doubt) {
+  PRECISE float rounding = unit_roundoff * (doubt.y * norm1(p) + 1.25f * vertex_norm1);
   PRECISE float limit = pixel_width(camera, t) * 0.0078125f;
   PRECISE float own = 6.0f * unit_roundoff * norm1(p);
-  return min(rounding, max(limit, own));
+  PRECISE float point = unit_roundoff * doubt.x * norm1(p);
+  return vec2(point, min(rounding, max(limit, own)));
 }
 
 // ---- the definition, in double ----------------------------------------------------------------------------------
@@ -62,6 +64,13 @@ SHARED dvec3 quad_edge(IN(LightFrame) light, IN(vec3) a, IN(vec3) b, IN(vec3) p,
   return swapped == (sign > 0.0) ? -plane : plane;
 }
 
+SHARED double longest2(IN(vec3) a, IN(vec3) b, IN(vec3) c) {
+  dvec3 ab = dvec3(b) - dvec3(a);
+  dvec3 bc = dvec3(c) - dvec3(b);
+  dvec3 ca = dvec3(a) - dvec3(c);
+  return max(dot(ab, ab), max(dot(bc, bc), dot(ca, ca)));
+}
+
 SHARED QuadPlanes quad_planes(IN(CameraFrame) camera, IN(LightFrame) light, IN(vec3) a, IN(vec3) b, IN(vec3) c,
                               IN(ivec2) px, IN(vec4) data) {
   vec3 p = receiver_point(camera, vec2(float(px.x) + 0.5f, float(px.y) + 0.5f), data.x);
@@ -89,8 +98,19 @@ SHARED QuadPlanes quad_planes(IN(CameraFrame) camera, IN(LightFrame) light, IN(v
   planes.height = quad_plane(n * sign, dvec3(a) - dvec3(p), along_x, along_y, slope);
   PRECISE double length2 = (n.x * n.x + n.y * n.y) + n.z * n.z;
   planes.length2 = length2;
-  double bias = double(quad_bias(camera, p, data.x, max_norm1(a, b, c), doubt_of(camera, data)));
-  planes.bias = dvec3(bias, bias * slope.x, bias * slope.y);
+  // One plane, bent by rounding, rises by twice its rounding over the micro-quad; what rises more is two. A bias would only
+  // move the line where they meet, and open a crack beside an occluder that is thinner, as one is that the light grazes.
+  float vertex_norm1 = max_norm1(a, b, c);
+  vec2 doubt = doubt_of(camera, data);
+  PRECISE double extent = double(camera.pixel_ray.x + camera.pixel_ray.y) * width +
+                          double(norm1(perspective ? p : vec3(0.0f, 0.0f, 1.0f))) * (abs(sx) + abs(sy));
+  PRECISE double overhang = extent * sqrt(longest2(a, b, c) / length2);
+  PRECISE double rounding = double(unit_roundoff) * (double(doubt.y) * double(norm1(p)) +
+                                                     1.25 * double(vertex_norm1) * (1.0 + overhang));
+  PRECISE double rise = abs(planes.height.y) + abs(planes.height.z);
+  bool parallel = !(rise > 2.0 * rounding * sqrt(length2));
+  vec2 biases = quad_bias(camera, p, data.x, vertex_norm1, doubt);
+  planes.bias = dvec3(1.0, slope.x, slope.y) * double(parallel ? biases.y : biases.x);
   return planes;
 }
 
@@ -143,6 +163,7 @@ struct QuadTriangle {
   vec3 plane;  // unit, towards the light
   float plane_turned;
   float plane_error;
+  float per_height;  // 1 over its smallest height
   float vertex_norm1;
   bool sided;          // the plane's side to the light is certain
   bool facing;         // that side, by the triangle's own order
@@ -182,6 +203,7 @@ SHARED QuadTriangle make_quad_triangle(IN(CameraFrame) camera, IN(LightFrame) li
   t.facing = side > 0.0f;
   t.plane = n * (side < 0.0f ? -scale : scale);
   t.plane_turned = turned_by(camera, t.plane, a);
+  t.per_height = sqrt(max(dot(b - a, b - a), max(dot(c - b, c - b), dot(c - a, c - a)))) * scale;
   t.plane_error = 2.0f * area_error * scale + 16.0f * unit_roundoff;
   t.vertex_norm1 = max_norm1(a, b, c);
   return t;
@@ -199,6 +221,18 @@ SHARED vec3 quad_line(IN(vec3) n, float turned, IN(vec3) q, IN(MicroQuad) m) {
 SHARED float quad_line_error(float plane_error, float vertex_norm1, IN(vec3) q, IN(MicroQuad) m) {
   return plane_error *
          (norm1(q) + 0.75f * ((abs(m.tilt.x) + abs(m.tilt.y)) * vertex_norm1 + (m.width.x + m.width.y)));
+}
+
+// xyz: a triangle's height over the micro-quad, less the bias; w: bounds its error, boundless where the bias is unsure.
+SHARED vec4 quad_height(IN(CameraFrame) camera, IN(QuadTriangle) t, IN(vec3) q, IN(MicroQuad) m) {
+  vec3 height = quad_line(t.plane, t.plane_turned, q, m);
+  float error = quad_line_error(t.plane_error, t.vertex_norm1, q, m);
+  vec2 bias = quad_bias(camera, m.center, m.t, t.vertex_norm1, m.doubt);
+  float rounding = unit_roundoff * (m.doubt.y * norm1(m.center) + 1.25f * t.vertex_norm1 * (1.0f + m.extent * t.per_height));
+  float rise = abs(height.y) + abs(height.z);
+  if (!(abs(rise - 2.0f * rounding) > 2.0f * error + rounding * 0.0001f)) error = 3.0e38f;
+  height -= (rise > 2.0f * rounding ? bias.x : bias.y) * vec3(1.0f, m.slope.x, m.slope.y);
+  return vec4(height, error);
 }
 
 SHARED_END

@@ -21,7 +21,7 @@ struct MicroQuad {
   vec2 tilt;       // slopes of the G-buffer: n.along = n.width - tilt n.turn, with turn = center or, orthographic, z
   float extent;    // bounds |along_x|_1 + |along_y|_1 and, times 4u, their errors
   float t;         // eye distance of the center
-  float doubt;     // doubt_of
+  vec2 doubt;      // doubt_of
 };
 
 // In the G-buffer: x: eye distance; yz: slopes of 1/t as a share of 1/t (perspective) or of t (orthographic), a pixel,
@@ -39,13 +39,14 @@ SHARED float overhang_of(IN(vec4) data) {
   return uintBitsToFloat((uint(127 + least_overhang) + (floatBitsToUint(data.w) & 31u)) << 23);
 }
 
-// How far a point of the micro-quad may lie off its triangle's plane, in roundings of |P|_1: 2 for the centre, 4 times the
-// steepness for the slopes and for a t of up to twice the centre's, and the vertices' own rounding, which grows outside.
-SHARED float doubt_of(IN(CameraFrame) camera, IN(vec4) data) {
+// How far a point of the micro-quad may lie off its triangle's plane, in roundings of |P|_1. x: 2 for the centre, 4 times the
+// steepness for the slopes and for a t of up to twice the centre's. y: also the vertices' own rounding, which grows outside.
+SHARED vec2 doubt_of(IN(CameraFrame) camera, IN(vec4) data) {
   PRECISE float change = abs(data.y) + abs(data.z);
   PRECISE float steepness = is_perspective(camera) ? change : change / data.x;
-  PRECISE float doubt = 3.0f + 2.0f * overhang_of(data) + 4.0f * steepness;
-  return doubt;
+  PRECISE float point = 2.0f + 4.0f * steepness;
+  PRECISE float plane = point + (1.0f + 2.0f * overhang_of(data));
+  return vec2(point, plane);
 }
 
 SHARED vec4 micro_quad_data(IN(CameraFrame) camera, IN(vec2) px, float t, IN(vec3) a, IN(vec3) b, IN(vec3) c) {

@@ -186,7 +186,7 @@ TEST(SharedCoverage, IsTheExactPredicateAtEachSampleButForTheBias) {
       if (ours == reference::occluded_exact(at, {a, b, c}, point)) continue;
       // The float micro-quad here is off by some 1e-7 of its size; and the plane is biased.
       const double slack =
-          1e-5 * pixel + 2.0 * shared::quad_bias(camera, quad.center, quad.t, shared::max_norm1(a, b, c), quad.doubt);
+          1e-5 * pixel + 2.0 * shared::quad_bias(camera, quad.center, quad.t, shared::max_norm1(a, b, c), quad.doubt).y;
       bool changes = std::abs(reference::plane_distance(at, {a, b, c}, point)) < slack;
       for (int k = 0; k < 64 && !changes; ++k)
         changes = reference::occluded_exact(at + random.direction() * slack, {a, b, c}, point) == ours;
@@ -197,6 +197,59 @@ TEST(SharedCoverage, IsTheExactPredicateAtEachSampleButForTheBias) {
   }
   EXPECT_GT(occluded, 2000);
   EXPECT_GT(partly, 200);
+}
+
+TEST(SharedCoverage, ABiasAgainstRoundedPlanesIsForThoseAlone) {
+  Random random(97);
+  const shared::CameraFrame camera = perspective_camera();
+  int bent = 0, bent_hidden = 0, crossing = 0, crossing_hidden = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Pixel p = random_pixel(random, camera);
+    const shared::MicroQuad quad = shared::make_micro_quad(camera, p.px, p.data);
+    const glm::dvec3 center(quad.center), own(p.corner[0]);
+    glm::dvec3 normal = glm::normalize(glm::cross(glm::dvec3(p.corner[1]) - own, glm::dvec3(p.corner[2]) - own));
+    if (quad.extent > 0.15f) continue;  // smaller than any occluder
+    const shared::LightFrame light = make_light(normal, nullptr);
+    if (glm::dot(normal, glm::dvec3(glm::vec3(light.to_light))) < 0.0) normal = -normal;
+    // A triangle around the pixel, turned out of the receiver's plane by little, and lifted by less.
+    const glm::dvec3 axis = glm::normalize(glm::cross(normal, random.direction())), side = glm::cross(axis, normal);
+    const double angle = std::pow(10.0, random.uniform(-9.0, -2.0)), size = random.uniform(0.5, 2.0);
+    const glm::vec2 bias = shared::quad_bias(camera, quad.center, quad.t, shared::norm1(quad.center), quad.doubt);
+    const glm::dvec3 lift = normal * (random.uniform(0.0, 1.5) * double(bias.y));
+    const auto corner = [&](double x, double y) {
+      const double depth = random.uniform(0.9, 1.1);
+      return glm::vec3(center + lift + size * depth * (x * axis + y * (side + angle * normal)));
+    };
+    const glm::vec3 a = corner(0.0, 1.0), b = corner(-0.9, -0.6), c = corner(0.9, -0.6);
+    const shared::QuadPlanes planes = shared::quad_planes(camera, light, a, b, c, p.px, p.data);
+
+    const glm::dvec3 n = glm::normalize(glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a)));
+    const double up = glm::dot(n, normal) < 0.0 ? -1.0 : 1.0;
+    const auto height = [&](const glm::vec2& o) { return up * glm::dot(n, glm::dvec3(a) - point_in_double(quad, o)); };
+    double lowest = height(shared::corner_offset(0)), highest = lowest;
+    for (int k = 1; k < 4; ++k) {
+      lowest = std::min(lowest, height(shared::corner_offset(k)));
+      highest = std::max(highest, height(shared::corner_offset(k)));
+    }
+    const double rounding = 0x1p-24 * (double(quad.doubt.y) * double(shared::norm1(quad.center)) +
+                                       1.25 * double(shared::max_norm1(a, b, c)));
+    const bool is_bent = highest - lowest < rounding;
+    if (!is_bent && highest - lowest < 3.0 * rounding) continue;
+    const glm::vec2 exact = shared::quad_bias(camera, quad.center, quad.t, shared::max_norm1(a, b, c), quad.doubt);
+    const double expected = double(is_bent ? exact.y : exact.x);
+    for (const glm::vec2 o : offsets()) {
+      const double h = height(o);
+      if (std::abs(h - expected) < 0.1 * expected) continue;
+      ASSERT_EQ(shared::occluded_sample(planes, o), h > expected) << i << " " << h / expected;
+      const bool between = h > double(exact.x) && h < double(exact.y);
+      (is_bent ? bent : crossing) += between;
+      (is_bent ? bent_hidden : crossing_hidden) += h > expected;
+    }
+  }
+  EXPECT_GT(bent, 10000);
+  EXPECT_GT(bent_hidden, 10000);
+  EXPECT_GT(crossing, 1000);
+  EXPECT_GT(crossing_hidden, 10000);
 }
 
 /// A micro-quad on a grid on which it is between a fraction of a texel and some twenty texels wide.

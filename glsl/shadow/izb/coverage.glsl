@@ -42,9 +42,8 @@ uint classify_quad(CameraFrame eye, QuadTriangle t, MicroQuad quad, out bool uns
   uint bc = edge_bits(t.edge1, t.vertex_norm1, quad, u1);
   uint ca = ~edge_bits(t.edge2, t.vertex_norm1, quad, u2);
   vec3 q = t.edge0.first - quad.center;
-  vec3 height = quad_line(t.plane, t.plane_turned, q, quad);
-  height -= quad_bias(eye, quad.center, quad.t, t.vertex_norm1, quad.doubt) * vec3(1.0, quad.slope);
-  uint above = table_bits(height, quad_line_error(t.plane_error, t.vertex_norm1, q, quad), uh);
+  vec4 height = quad_height(eye, t, q, quad);
+  uint above = table_bits(height.xyz, height.w, uh);
 
   // Each edge's bits are the other triangle's complement, so the triangle's own side decides what is inside. What is unknown
   // may be; where nothing is left all the same, nothing is unsure.
@@ -88,9 +87,8 @@ uint classify_quad(CameraFrame eye, QuadTriangle t, MicroQuad quad, out bool uns
   Sides ac = edge_sides(t.edge2, t.vertex_norm1, quad);
   Sides ca = Sides(ac.below, ac.above);
   vec3 q = t.edge0.first - quad.center;
-  vec3 height = quad_line(t.plane, t.plane_turned, q, quad);
-  height -= quad_bias(eye, quad.center, quad.t, t.vertex_norm1, quad.doubt) * vec3(1.0, quad.slope);
-  Sides h = sides_of(height, quad_line_error(t.plane_error, t.vertex_norm1, q, quad));
+  vec4 height = quad_height(eye, t, q, quad);
+  Sides h = sides_of(height.xyz, height.w);
   if (!t.sided) h = Sides(0u, 0u);
 
   // One sign on all three edges is inside, two certain and different signs are outside, whatever the winding.
