@@ -66,6 +66,7 @@
 #define IMAGE_PICTURE 6
 #define IMAGE_PYRAMID 7
 #define IMAGE_MICRO_QUAD 2
+#define IMAGE_WORK 0
 
 // Vertex attributes.
 #define ATTRIBUTE_POSITION 0

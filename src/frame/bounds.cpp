@@ -48,6 +48,7 @@ BoundsStage::BoundsStage()
       cascades_buffer_("cascades", sizeof(shared::CascadeRange)) {}
 
 void BoundsStage::prepare(bool micro_quads, int cascades) {
+  if (micro_quads == micro_quads_ && cascades == cascades_) return;
   reduce_ = gpu::Program();
   reduce_cube_ = gpu::Program();
   micro_quads_ = micro_quads;
@@ -82,6 +83,10 @@ void BoundsStage::render(int faces, gpu::StageTimers& timers) {
   window_program_.dispatch(1, 1, 1, 1);
   // Read as uniform blocks: a software renderer reads storage lane by lane.
   glMemoryBarrier(GL_UNIFORM_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  bind();
+}
+
+void BoundsStage::bind() const {
   glBindBufferBase(GL_UNIFORM_BUFFER, BIND_WINDOWS, windows_.name());
   glBindBufferBase(GL_UNIFORM_BUFFER, BIND_CASCADE_ENDS, cascades_buffer_.name());
 }

@@ -10,11 +10,13 @@ namespace izb {
 class BoundsStage {
  public:
   BoundsStage();
-  /// micro_quads: the windows hold the pixels' micro-quads, not only their centres.
+  /// micro_quads: the windows hold the pixels' micro-quads, not only their centres. Programs for the same stay.
   void prepare(bool micro_quads, int cascades);
   /// Camera and light uniform blocks and the G-buffer's textures are bound; `faces` is the light's. Leaves the windows
   /// bound as BIND_WINDOWS and the cascades' ends as BIND_CASCADE_ENDS, both uniform blocks.
   void render(int faces, gpu::StageTimers& timers);
+  /// Binds these as the last render() left them.
+  void bind() const;
   /// Reads a layer's window back; for checks and debug views only.
   shared::LightWindow read_window(int layer = 0) const;
   shared::CascadeRange read_cascades() const;

@@ -72,8 +72,11 @@ GBufferStage::GBufferStage() : draw_(program_specs()[0]) {}
 
 void GBufferStage::resize(int width_px, int height_px, bool micro_quads, const SceneBuffers& scene) {
   const gpu::Defines geometry = scene.windows().defines();
-  resolve_ = gpu::Program(resolve_spec(micro_quads, geometry));
-  if (has_masked(scene.draw_list())) draw_masked_ = gpu::Program(masked_spec(geometry));
+  resolve_.become(resolve_spec(micro_quads, geometry));
+  if (has_masked(scene.draw_list())) draw_masked_.become(masked_spec(geometry));
+  if (gbuffer_.id.width_px() == width_px && gbuffer_.id.height_px() == height_px &&
+      static_cast<bool>(gbuffer_.micro_quad) == micro_quads)
+    return;
   gbuffer_ = GBuffer(width_px, height_px, micro_quads);
   framebuffer_ =
       gpu::Framebuffer("gbuffer", {&gbuffer_.id, &gbuffer_.albedo, &gbuffer_.shading_normal}, &gbuffer_.depth);

@@ -30,7 +30,7 @@ struct GBuffer {
 class GBufferStage {
  public:
   GBufferStage();
-  /// For frames of that scene. micro_quads: also find each pixel's micro-quad.
+  /// For frames of that scene. micro_quads: also find each pixel's micro-quad. Makes only what is not there already.
   void resize(int width_px, int height_px, bool micro_quads, const SceneBuffers& scene);
   /// Draws the scene and finds every pixel's receiver point. The camera's uniform block is bound.
   void render(const SceneBuffers& scene, gpu::StageTimers& timers);

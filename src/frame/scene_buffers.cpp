@@ -178,6 +178,7 @@ void SceneBuffers::upload_textures(const Scene& scene) {
 }
 
 void SceneBuffers::update(const Scene& scene, const std::vector<shared::InstanceFrame>& instances) {
+  ++updates_;
   instances_.update(0, instances.size() * sizeof(shared::InstanceFrame), instances.data());
   if (deform_) deform_.render(scene, positions_, normals_);
 }

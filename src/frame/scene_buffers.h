@@ -17,6 +17,8 @@ class SceneBuffers {
   const DrawList& draw_list() const { return list_; }
   /// The scene as it is posed now: placements, and vertices that deform.
   void update(const Scene& scene, const std::vector<shared::InstanceFrame>& instances);
+  /// How often: tells a renderer that shares the scene whether another has placed it since.
+  uint64_t updates() const { return updates_; }
   /// Whether update() has vertices to deform.
   bool deforms() const { return static_cast<bool>(deform_); }
   const gpu::Buffer& positions() const { return positions_; }
@@ -45,6 +47,7 @@ class SceneBuffers {
   DrawList list_;
   GeometryWindows windows_;
   bool throttled_;
+  uint64_t updates_ = 0;
   gpu::Buffer positions_, normals_, uvs_, indices_, instance_ids_, commands_, instances_, materials_;
   DeformStage deform_;
   gpu::VertexArray vertex_array_;

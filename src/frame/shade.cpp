@@ -19,7 +19,7 @@ ShadeStage::ShadeStage()
       exposure_("shade exposure", sizeof(shared::Exposure)) {}
 
 void ShadeStage::resize(int width_px, int height_px) {
-  picture_ = gpu::Texture("picture", GL_RGBA16F, width_px, height_px);
+  picture_.become("picture", GL_RGBA16F, width_px, height_px);
 }
 
 gpu::Plan ShadeStage::memory_needed(int width_px, int height_px) {

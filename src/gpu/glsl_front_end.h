@@ -18,6 +18,8 @@ struct ProgramSpec {
   std::vector<std::string> files;
   Defines defines;
   std::vector<std::string> extensions{};  ///< that a driver must have to take it
+
+  bool operator==(const ProgramSpec&) const = default;
 };
 
 struct CheckedShader {

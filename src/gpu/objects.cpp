@@ -93,6 +93,21 @@ Texture Texture::array(const std::string& text, GLenum format, int width_px, int
   return t;
 }
 
+// The old one goes first: its room may be needed.
+bool Texture::become(const std::string& text, GLenum format, int width_px, int height_px) {
+  if (is(format, width_px, height_px, 1)) return false;
+  *this = Texture();
+  *this = Texture(text, format, width_px, height_px);
+  return true;
+}
+
+bool Texture::become_array(const std::string& text, GLenum format, int width_px, int height_px, int layers) {
+  if (is(format, width_px, height_px, layers)) return false;
+  *this = Texture();
+  *this = array(text, format, width_px, height_px, layers);
+  return true;
+}
+
 void Texture::finish(const std::string& text, int levels) {
   label(GL_TEXTURE, name_, text);
   if (const GLenum error = glGetError(); error != GL_NO_ERROR)

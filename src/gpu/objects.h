@@ -87,6 +87,9 @@ class Texture : public Object<TextureTraits> {
   Texture(const std::string& label, GLenum format, int width_px, int height_px, int levels = 1);
   /// An array of `layers` such textures, also of one.
   static Texture array(const std::string& label, GLenum format, int width_px, int height_px, int layers);
+  /// Makes it anew, contents undefined, unless it is such a texture already. True: it was made anew.
+  bool become(const std::string& label, GLenum format, int width_px, int height_px);
+  bool become_array(const std::string& label, GLenum format, int width_px, int height_px, int layers);
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
   int layers() const { return layers_; }
@@ -104,6 +107,9 @@ class Texture : public Object<TextureTraits> {
   void read_bytes(GLenum format, GLenum type, size_t bytes, void* data) const;
 
  private:
+  bool is(GLenum format, int width_px, int height_px, int layers) const {
+    return name_ != 0 && format_ == format && width_px_ == width_px && height_px_ == height_px && layers_ == layers;
+  }
   void finish(const std::string& label, int levels);
 
   GLenum format_ = 0;

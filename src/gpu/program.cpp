@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/program.h"
 
+#include <atomic>
+
 #include "base/error.h"
 
 namespace izb::gpu {
@@ -19,6 +21,8 @@ GLenum gl_kind(ShaderKind kind) {
   }
 }
 
+std::atomic<uint64_t> made{0};
+
 /// The driver names files by their index (#line LINE INDEX): give the list, so that its message can be read.
 std::string file_list(const CheckedShader& shader) {
   std::string text;
@@ -28,7 +32,8 @@ std::string file_list(const CheckedShader& shader) {
 
 }  // namespace
 
-Program::Program(const ProgramSpec& spec) {
+Program::Program(const ProgramSpec& spec) : spec_(spec) {
+  ++made;
   name_ = glCreateProgram();
   glObjectLabel(GL_PROGRAM, name_, static_cast<GLsizei>(spec.label.size()), spec.label.data());
   for (const CheckedShader& checked : check_program(spec)) {
@@ -55,6 +60,14 @@ Program::Program(const ProgramSpec& spec) {
     glGetProgramInfoLog(name_, sizeof log, nullptr, log);
     fail("the GL driver cannot link '{}':\n{}", spec.label, log);
   }
+}
+
+void Program::become(const ProgramSpec& spec) {
+  if (!is(spec)) *this = Program(spec);
+}
+
+uint64_t programs_made() {
+  return made;
 }
 
 void Program::dispatch(int width, int height, int group_w, int group_h, int layers) const {

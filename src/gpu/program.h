@@ -15,11 +15,20 @@ class Program : public Object<ProgramTraits> {
   Program() = default;
   /// Checks with glslang, then compiles and links. Throws izb::Error with file:line.
   explicit Program(const ProgramSpec& spec);
+  /// Compiles, unless it is that program already.
+  void become(const ProgramSpec& spec);
+  bool is(const ProgramSpec& spec) const { return name_ != 0 && spec_ == spec; }
 
   void use() const { glUseProgram(name_); }
   /// Uses the program and runs it over at least `width` x `height` invocations in groups of group_w x group_h, `layers`
   /// times (gl_WorkGroupID.z).
   void dispatch(int width, int height, int group_w, int group_h, int layers = 1) const;
+
+ private:
+  ProgramSpec spec_;
 };
+
+/// How many have been compiled since the process began.
+uint64_t programs_made();
 
 }  // namespace izb::gpu

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/renderer.h"
 
+#include <optional>
 #include <stdexcept>
 
 #include "base/error.h"
@@ -27,9 +28,13 @@ int most_faces(const std::vector<Light>& lights, const GridRequest& grid) {
 }  // namespace
 
 Renderer::Renderer(const Scene& scene, const gpu::Capabilities& capabilities, uint32_t part_triangles)
+    : Renderer(scene, capabilities,
+               std::make_shared<SceneBuffers>(scene, make_draw_list(scene, part_triangles), capabilities)) {}
+
+Renderer::Renderer(const Scene& scene, const gpu::Capabilities& capabilities, std::shared_ptr<SceneBuffers> buffers)
     : scene_(scene),
       capabilities_(capabilities),
-      buffers_(scene, make_draw_list(scene, part_triangles), capabilities),
+      buffers_(std::move(buffers)),
       camera_block_("camera", BIND_CAMERA),
       light_block_("light", BIND_LIGHT),
       shade_block_("shade", BIND_SHADE),
@@ -44,7 +49,8 @@ void Renderer::prepare(Technique& technique, int width_px, int height_px, const 
   if (const std::string reason = technique.missing(capabilities_); !reason.empty())
     fail("technique '{}' cannot run: {}", technique.info().name, reason);
   // What this object and the technique hold already is replaced, or needed again.
-  uint64_t held = buffers_.bytes() + gbuffer_.gbuffer().bytes() + shade_.picture().bytes() + sum_of(technique.memory());
+  uint64_t held =
+      buffers_->bytes() + gbuffer_.gbuffer().bytes() + shade_.picture().bytes() + sum_of(technique.memory());
   for (const Visibility& v : visibility_) held += v.mask.bytes();
   room_ = gpu::memory_room(capabilities_, held);
   gpu::expect_room(memory_needed(technique, width_px, height_px, lights), room_, capabilities_);
@@ -52,24 +58,23 @@ void Renderer::prepare(Technique& technique, int width_px, int height_px, const 
   common_ = {};
   common_.samples = technique.samples();
   const bool micro_quads = common_.samples.count() > 1;
-  gbuffer_.resize(width_px, height_px, micro_quads, buffers_);
+  gbuffer_.resize(width_px, height_px, micro_quads, *buffers_);
   bounds_.prepare(micro_quads, technique.grid().cascades);
   samples_block_.set(make_sample_frame(common_.samples, technique.grid()));
   shade_.resize(width_px, height_px);
-  visibility_.clear();
-  for (size_t i = 0; i < lights.size(); ++i)
-    visibility_.push_back({gpu::Texture("mask", GL_R32UI, width_px, height_px)});
-  technique.resize({width_px, height_px, most_faces(lights, technique.grid()), buffers_.windows()});
+  visibility_.resize(lights.size());
+  for (Visibility& v : visibility_) v.mask.become("mask", GL_R32UI, width_px, height_px);
+  technique.resize({width_px, height_px, most_faces(lights, technique.grid()), buffers_->windows()});
   common_.width_px = width_px;
   common_.height_px = height_px;
   common_.gbuffer = &gbuffer_.gbuffer();
-  common_.first_triangle = &buffers_.draw_list().first_triangle;
-  common_.draw_casters = [this](Drawn drawn) { buffers_.draw_casters(drawn); };
-  common_.masked_casters = has_masked(buffers_.draw_list());
+  common_.first_triangle = &buffers_->draw_list().first_triangle;
+  common_.draw_casters = [this](Drawn drawn) { buffers_->draw_casters(drawn); };
+  common_.masked_casters = has_masked(buffers_->draw_list());
   common_.scene = &scene_;
-  common_.draw_list = &buffers_.draw_list();
+  common_.draw_list = &buffers_->draw_list();
   common_.triangles_vs = [this]() -> const std::vector<glm::vec3>& {
-    if (triangles_vs_.empty()) triangles_vs_ = flatten(scene_, buffers_.draw_list(), instances_);
+    if (triangles_vs_.empty()) triangles_vs_ = flatten(scene_, buffers_->draw_list(), instances_);
     return triangles_vs_;
   };
 }
@@ -82,12 +87,25 @@ void Renderer::select(size_t light, gpu::StageTimers& timers) {
   selected_ = light;
 }
 
-// The technique holds the lists of the light that it rendered last.
+// The technique holds the lists of the light that it rendered last. Another renderer of the same context, which may
+// share the buffers, has bound its own and placed the scene before its own camera.
 void Renderer::select_again(size_t light) {
-  if (light == selected_) return;
   gpu::StageTimers untimed(false);
+  if (buffers_->updates() != placed_) pose(untimed);
+  bind_frame();
+  if (light == selected_) {
+    light_block_.set(inputs_[light].light);
+    light_block_.bind();
+    return bounds_.bind();
+  }
   select(light, untimed);
   technique_->render(inputs_[light], visibility_[light], untimed);
+}
+
+void Renderer::bind_frame() {
+  camera_block_.bind();
+  samples_block_.bind();
+  gbuffer_.gbuffer().bind();
 }
 
 void Renderer::render(const Camera& camera, const std::vector<Light>& lights, gpu::StageTimers& timers) {
@@ -97,14 +115,13 @@ void Renderer::render(const Camera& camera, const std::vector<Light>& lights, gp
   faults_.assign(lights.size(), {});
   for (size_t i = 0; i < lights.size(); ++i)
     inputs_[i].light = make_light_frame(camera, common_.camera, lights[i], technique_->grid());
-  instances_ = make_instance_frames(camera, scene_, buffers_.draw_list());
+  instances_ = make_instance_frames(camera, scene_, buffers_->draw_list());
   triangles_vs_.clear();
   pose(timers);
   camera_block_.set(common_.camera);
-  camera_block_.bind();
-  samples_block_.bind();
+  bind_frame();
 
-  gbuffer_.render(buffers_, timers);
+  gbuffer_.render(*buffers_, timers);
   for (size_t i = 0; i < lights.size(); ++i) {
     select(i, timers);
     technique_->render(inputs_[i], visibility_[i], timers);
@@ -114,9 +131,10 @@ void Renderer::render(const Camera& camera, const std::vector<Light>& lights, gp
 }
 
 void Renderer::pose(gpu::StageTimers& timers) {
-  if (!buffers_.deforms()) return buffers_.update(scene_, instances_);
-  const gpu::StageTimers::Scope scope(timers, deform_name);
-  buffers_.update(scene_, instances_);
+  std::optional<gpu::StageTimers::Scope> scope;
+  if (buffers_->deforms()) scope.emplace(timers, deform_name);
+  buffers_->update(scene_, instances_);
+  placed_ = buffers_->updates();
 }
 
 void Renderer::shade(const Camera& camera, const std::vector<Light>& lights, gpu::StageTimers& timers) {
@@ -158,6 +176,16 @@ std::vector<float> Renderer::list_lengths(size_t light) {
   return technique_->list_lengths(inputs_[light]);
 }
 
+std::vector<float> Renderer::tests_a_pixel(size_t light) {
+  select_again(light);
+  return technique_->tests_a_pixel(inputs_[light], visibility_[light]);
+}
+
+std::vector<float> Renderer::fragments_a_texel(size_t light) {
+  select_again(light);
+  return technique_->fragments_a_texel(inputs_[light], visibility_[light]);
+}
+
 std::vector<uint64_t> Renderer::list_histogram(size_t light) {
   select_again(light);
   return technique_->list_histogram(inputs_[light]);
@@ -169,7 +197,7 @@ Counts Renderer::memory() const {
   Counts counts;
   counts.emplace_back(technique_->info().name, sum_of(technique_->memory()) + masks);
   counts.emplace_back("gbuffer", gbuffer_.gbuffer().bytes() + shade_.picture().bytes());
-  counts.emplace_back("scene", buffers_.bytes());
+  counts.emplace_back("scene", buffers_->bytes());
   return counts;
 }
 
@@ -182,7 +210,7 @@ gpu::Plans Renderer::memory_needed(const Technique& technique, int width_px, int
   for (gpu::Planned& p : ShadeStage::memory_needed(width_px, height_px)) gbuffer.push_back(std::move(p));
   return {{technique.info().name, std::move(its)},
           {"gbuffer", std::move(gbuffer)},
-          {"scene", SceneBuffers::memory_needed(scene_, buffers_.draw_list())}};
+          {"scene", SceneBuffers::memory_needed(scene_, buffers_->draw_list())}};
 }
 
 std::vector<gpu::ProgramSpec> Renderer::program_specs() {

@@ -15,7 +15,10 @@ class Renderer {
   /// a buffer or a program.
   /// `part_triangles`, for tests: see make_draw_list().
   Renderer(const Scene& scene, const gpu::Capabilities& capabilities, uint32_t part_triangles = largest_part_triangles);
+  /// The same over buffers of that scene which several renderers of one context share.
+  Renderer(const Scene& scene, const gpu::Capabilities& capabilities, std::shared_ptr<SceneBuffers> buffers);
 
+  /// May be called between any frames, and makes only what is not there already: programs outlive a change of size.
   /// Fixes size, technique and its options, for frames with so many lights, each of which takes no more grids than
   /// these do. Throws izb::Error if the size is beyond the driver's limits, there is too little memory, or the
   /// technique lacks a capability.
@@ -36,13 +39,17 @@ class Renderer {
   float exposure() const { return shade_.read_exposure().scale.x; }
 
   /// Counts of the last frame under one of its lights, by a frame of their own; and what the technique says of its
-  /// lists.
+  /// lists and of its work. Where another renderer of the same buffers has rendered since, the scene must be posed as
+  /// it was.
   Counts count(size_t light = 0);
   std::vector<float> list_lengths(size_t light = 0);
   std::vector<uint64_t> list_histogram(size_t light = 0);
+  std::vector<float> tests_a_pixel(size_t light = 0);
+  std::vector<float> fragments_a_texel(size_t light = 0);
 
   const BoundsStage& bounds() const { return bounds_; }
-  const SceneBuffers& scene_buffers() const { return buffers_; }
+  const SceneBuffers& scene_buffers() const { return *buffers_; }
+  const std::shared_ptr<SceneBuffers>& shared_scene_buffers() const { return buffers_; }
   /// GPU memory by group: "izb" or the technique's name with the mask, "gbuffer" with the picture, "scene".
   Counts memory() const;
   /// What memory() will be after prepare(), before exact insertion's pool grows.
@@ -59,12 +66,13 @@ class Renderer {
   void select(size_t light, gpu::StageTimers& timers);
   /// So that the technique is as that light left it.
   void select_again(size_t light);
+  void bind_frame();
   void pose(gpu::StageTimers& timers);
   void shade(const Camera& camera, const std::vector<Light>& lights, gpu::StageTimers& timers);
 
   const Scene& scene_;
   gpu::Capabilities capabilities_;
-  SceneBuffers buffers_;
+  std::shared_ptr<SceneBuffers> buffers_;
   Technique* technique_ = nullptr;
   GBufferStage gbuffer_;
   BoundsStage bounds_;
@@ -79,6 +87,7 @@ class Renderer {
   std::vector<std::string> faults_;     ///< of each light's mask, empty: none
   FrameInputs common_;                  ///< what all lights share
   size_t selected_ = 0;
+  uint64_t placed_ = 0;  ///< SceneBuffers::updates() after its last frame's
   std::vector<shared::InstanceFrame> instances_;
   std::vector<glm::vec3> triangles_vs_;  ///< of the last frame, once asked for
 };

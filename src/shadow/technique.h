@@ -44,7 +44,8 @@ class Technique {
   virtual SamplePattern samples() const = 0;
   /// What it asks of the light-space grid that the bounds stage fits.
   virtual GridRequest grid() const = 0;
-  /// Compiles and allocates for a shape and the options' values. Throws izb::Error if the driver refuses.
+  /// Compiles and allocates for a shape and the options' values, as far as what is there does not serve. Throws
+  /// izb::Error if the driver refuses.
   virtual void resize(const FrameShape& shape) = 0;
   /// Fills `out.mask`. Uniform blocks of camera and light, and the light's window, are bound.
   virtual void render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) = 0;
@@ -61,6 +62,11 @@ class Technique {
   virtual std::vector<float> list_lengths(const FrameInputs&) { return {}; }
   /// Of the same, entry n: how many lists have n nodes; empty if it has no lists.
   virtual std::vector<uint64_t> list_histogram(const FrameInputs&) { return {}; }
+  /// Of the last frame, by a frame of their own; out.mask is as after render(). Frustum-triangle tests that each pixel
+  /// took part in (bottom row first), and fragments that arrived in each texel of the light-space grid after z-cull, of
+  /// all layers, as IzbInternals::texel() counts them; empty if it has none.
+  virtual std::vector<float> tests_a_pixel(const FrameInputs&, Visibility&) { return {}; }
+  virtual std::vector<float> fragments_a_texel(const FrameInputs&, Visibility&) { return {}; }
   /// Every program that it can compile: the defaults and each option alone. Needs no GL.
   virtual std::vector<gpu::ProgramSpec> program_specs() const = 0;
 };

@@ -1,8 +1,9 @@
 #version 450 core
 // 5.5 Each fragment walks its texel's list, tests each listed pixel against the triangle, and adds shadow to its mask.
 // Defines, beside those of receivers.glsl and coverage.glsl: LAYERS: several layers; PIPELINE: fetch one node ahead (6.8);
-// COUNT: count fragments and tests; IN_DOUBLE: decide unsure pairs here (when their list overflowed); HW: hardware chose the
-// texels. MASKED: triangles have an alpha mask, see cutout.glsl.
+// COUNT: count fragments and tests; COUNT_TESTS, COUNT_FRAGMENTS: also those of each pixel, of each texel; IN_DOUBLE: decide
+// unsure pairs here (when their list overflowed); HW: hardware chose the texels. MASKED: triangles have an alpha mask, see
+// cutout.glsl.
 #include "shared/bindings.h"
 #include "shared/occlusion.h"
 #include "shared/pairs.h"
@@ -22,6 +23,12 @@ layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
 layout(std430, binding = BIND_COUNTERS) buffer CounterBlock { Counters counters; };
 layout(std430, binding = BIND_PAIRS) writeonly buffer PairBlock { UnsurePair pairs[]; };
 layout(binding = UNIT_ID) uniform usampler2D id_texture;
+#ifdef COUNT_TESTS
+layout(binding = IMAGE_WORK, r32ui) uniform uimage2D tests_a_pixel;
+#endif
+#ifdef COUNT_FRAGMENTS
+layout(binding = IMAGE_WORK, r32ui) uniform uimage2DArray fragments_a_texel;
+#endif
 
 layout(location = 0) flat in vec3 g_a;
 layout(location = 1) flat in vec3 g_b;
@@ -150,6 +157,9 @@ bool walk(CameraFrame eye, Triangle triangle, ivec3 head_texel, inout Walk w, ou
     w.previous = r;
 #endif
     ++w.tests;
+#ifdef COUNT_TESTS
+    imageAtomicAdd(tests_a_pixel, px, 1u);
+#endif
     uint bits = test(eye, triangle, r, unsure);
     if (bits != 0u && !add_shadow(px, bits)) ++w.unchanged;
   }
@@ -195,5 +205,8 @@ void main() {
   if (tests + w.tests < tests) atomicAdd(counters.carries, 1u << 16);
   atomicAdd(counters.removed, w.removed);
   atomicAdd(counters.unchanged, w.unchanged);
+#ifdef COUNT_FRAGMENTS
+  imageAtomicAdd(fragments_a_texel, head_texel, 1u);
+#endif
 #endif
 }

@@ -31,47 +31,72 @@ std::string Izb::missing(const gpu::Capabilities& capabilities) const {
              : "";
 }
 
+// What serves as it is stays: programs above all, which take seconds.
 void Izb::resize(const FrameShape& shape) {
+  const bool pool_serves = built_.pool() && settings_.pool() && shape_.width_px == shape.width_px &&
+                           shape_.height_px == shape.height_px && built_.grid == settings_.grid &&
+                           heads_.layers() == settings_.cascades * shape.faces;
   built_ = settings_;
   built_.pair_capacity = settings_.pairs(shape.width_px, shape.height_px);
   built_.geometry = shape.geometry.defines();
-  const IzbSettings& s = built_;
-  const int width_px = shape.width_px, height_px = shape.height_px, layers = s.cascades * shape.faces;
   shape_ = shape;
-  programs_ = IzbPrograms(s);
+  const IzbSettings& s = built_;
+  programs_.follow(s);
   if (s.hardware()) hardware_ = HardwareRaster(gpu::query_capabilities(), s.dilation());
-  heads_ = gpu::Texture::array("izb heads", GL_R32UI, s.grid, s.grid, layers);
+  resize_grids(s.cascades * shape.faces);
+  if (!pool_serves) resize_nodes();
+  if (!no_attributes_) no_attributes_ = gpu::VertexArray("none");
+  if (!overflow_) overflow_ = gpu::Query("izb overflow", GL_ANY_SAMPLES_PASSED);
+  const auto buffer = [](gpu::Buffer& kept, const char* label, size_t bytes) {
+    if (kept.bytes() != gpu::buffer_bytes(bytes)) kept = gpu::Buffer(label, bytes);
+  };
+  buffer(counters_, "izb counters", sizeof(shared::Counters));
+  buffer(pairs_, "izb unsure pairs", sizeof(shared::UnsurePair) * static_cast<size_t>(s.pair_capacity));
   if (s.pool())
-    nodes_ = gpu::Texture("izb nodes", GL_RG32UI, shared::pool_width, 1);
-  else if (s.many_samples())
-    nodes_ = gpu::Texture::array("izb nodes", GL_R32UI, width_px, height_px, s.slots());
+    buffer(pool_counter_, "izb pool counter", sizeof(shared::PoolCounters));
   else
-    nodes_ = gpu::Texture("izb nodes", GL_RG32UI, width_px, height_px);
-  furthest_ = gpu::Texture();
-  depth_ = gpu::Texture();
-  pyramid_ = gpu::Texture();
-  zcull_framebuffers_.clear();
-  if (s.zcull) {
+    pool_counter_ = gpu::Buffer();
+  std::vector<uint32_t> words;
+  if (s.table()) words = make_visibility_table(samples(), s.table_side());
+  if (words == table_words_) return;
+  table_ = words.empty() ? gpu::BufferTexture() : gpu::BufferTexture("visibility look-up table", words);
+  table_words_ = std::move(words);
+}
+
+void Izb::resize_grids(int layers) {
+  const IzbSettings& s = built_;
+  if (heads_.become_array("izb heads", GL_R32UI, s.grid, s.grid, layers) || s.zcull != static_cast<bool>(depth_)) {
+    light_framebuffer_ = gpu::Framebuffer();
+    zcull_framebuffers_.clear();
+    furthest_ = gpu::Texture();
+    depth_ = gpu::Texture();
+    pyramid_ = gpu::Texture();
+  }
+  if (s.zcull && !depth_) {
     furthest_ = gpu::Texture::array("izb furthest", GL_R32UI, s.grid, s.grid, layers);
     depth_ = gpu::Texture::array("izb z-cull", GL_DEPTH_COMPONENT16, s.grid, s.grid, layers);
     for (int layer = 0; layer < layers; ++layer)
       zcull_framebuffers_.push_back(gpu::Framebuffer::depth_layer("izb z-cull", depth_, layer));
   }
-  if (s.pyramid()) {
+  if (!s.pyramid()) {
+    pyramid_ = gpu::Texture();
+  } else if (!pyramid_) {
     const int side = shared::pyramid_side(s.grid, 0);
     pyramid_ = gpu::Texture::array("izb z-cull pyramid", GL_R32UI, side + shared::pyramid_side(s.grid, 1),
                                    shared::pyramid_height(s.grid), layers);
   }
-  light_framebuffer_ = s.zcull ? gpu::Framebuffer("izb light space", {}, &depth_)
-                               : gpu::Framebuffer("izb light space", s.grid, s.grid, layers);
-  no_attributes_ = gpu::VertexArray("none");
-  counters_ = gpu::Buffer("izb counters", sizeof(shared::Counters));
-  pairs_ = gpu::Buffer("izb unsure pairs", sizeof(shared::UnsurePair) * static_cast<size_t>(s.pair_capacity));
-  pool_counter_ = s.pool() ? gpu::Buffer("izb pool counter", sizeof(shared::PoolCounters)) : gpu::Buffer();
-  table_ = gpu::BufferTexture();
-  if (s.table())
-    table_ = gpu::BufferTexture("visibility look-up table", make_visibility_table(samples(), s.table_side()));
-  overflow_ = gpu::Query("izb overflow", GL_ANY_SAMPLES_PASSED);
+  if (!light_framebuffer_)
+    light_framebuffer_ = s.zcull ? gpu::Framebuffer("izb light space", {}, &depth_)
+                                 : gpu::Framebuffer("izb light space", s.grid, s.grid, layers);
+}
+
+void Izb::resize_nodes() {
+  if (built_.pool())
+    nodes_.become("izb nodes", GL_RG32UI, shared::pool_width, 1);
+  else if (built_.many_samples())
+    nodes_.become_array("izb nodes", GL_R32UI, shape_.width_px, shape_.height_px, built_.slots());
+  else
+    nodes_.become("izb nodes", GL_RG32UI, shape_.width_px, shape_.height_px);
 }
 
 void Izb::render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) {
@@ -219,12 +244,7 @@ void Izb::draw(const FrameInputs& in, const Pass& pass) {
   }
   const bool apart = in.masked_casters && built_.alpha_masks();
   for (const Drawn drawn : apart ? std::vector{Drawn::opaque, Drawn::masked} : std::vector{Drawn::all}) {
-    if (built_.hardware())
-      draw_by_hardware(in,
-                       pass.program == IzbProgram::visibility             ? IzbProgram::hardware
-                       : pass.program == IzbProgram::visibility_in_double ? IzbProgram::hardware_in_double
-                                                                          : IzbProgram::hardware_counted,
-                       drawn);
+    if (built_.hardware()) draw_by_hardware(in, hardware_of(pass.program), drawn);
     draw_by_footprint(in, pass.program, drawn);
   }
   glDisable(GL_DEPTH_TEST);

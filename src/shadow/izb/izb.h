@@ -38,6 +38,8 @@ class Izb final : public Technique {
   gpu::Plan memory_needed(const FrameShape& shape) const override;
   std::vector<float> list_lengths(const FrameInputs& in) override;
   std::vector<uint64_t> list_histogram(const FrameInputs& in) override;
+  std::vector<float> tests_a_pixel(const FrameInputs& in, Visibility& out) override;
+  std::vector<float> fragments_a_texel(const FrameInputs& in, Visibility& out) override;
   std::vector<gpu::ProgramSpec> program_specs() const override { return izb_program_specs(); }
 
   /// Reads back what `build` and `zcull` left of the last frame; with removal the lists are what `visibility` left,
@@ -56,6 +58,8 @@ class Izb final : public Technique {
   /// Grids that the light of the frame takes, one a cascade of each face.
   int layers_of(const FrameInputs& in) const { return built_.cascades * static_cast<int>(in.light.grid.z); }
 
+  void resize_grids(int layers);
+  void resize_nodes();
   void build(const FrameInputs& in);
   void insert(const FrameInputs& in, const gpu::Program& program);
   int count_pool(const FrameInputs& in);
@@ -69,6 +73,7 @@ class Izb final : public Technique {
   void draw_by_hardware(const FrameInputs& in, IzbProgram program, Drawn drawn);
   shared::Counters visibility_counted(const FrameInputs& in, Visibility& out, const Pass& pass);
 
+  std::vector<float> work(const FrameInputs& in, Visibility& out, IzbProgram program, gpu::Texture sums);
   void restore_lists(const FrameInputs& in);
   IzbLists read_lists() const;
 
@@ -86,6 +91,7 @@ class Izb final : public Technique {
   gpu::VertexArray no_attributes_;
   gpu::Buffer counters_, pairs_, pool_counter_;
   gpu::BufferTexture table_;
+  std::vector<uint32_t> table_words_;  ///< what it holds
   gpu::Query overflow_;
 };
 

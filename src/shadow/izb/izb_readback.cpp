@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "shadow/izb/izb.h"
+#include "shared/bindings.h"
 #include "shared/lists.h"
 
 namespace izb {
@@ -41,6 +42,30 @@ Counts Izb::count(const FrameInputs& in, Visibility& out) {
           {"pairs_in_double", culled.pairs},
           {"nodes_removed", culled.removed},
           {"masks_unchanged", culled.unchanged}};
+}
+
+std::vector<float> Izb::work(const FrameInputs& in, Visibility& out, IzbProgram program, gpu::Texture sums) {
+  restore_lists(in);
+  sums.clear_uint(0);
+  glBindImageTexture(IMAGE_WORK, sums.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
+  visibility(in, out, {program, built_.zcull});
+  const std::vector<uint32_t> words = sums.read_uint();
+  return {words.begin(), words.end()};
+}
+
+std::vector<float> Izb::tests_a_pixel(const FrameInputs& in, Visibility& out) {
+  return work(in, out, IzbProgram::visibility_tests,
+              gpu::Texture("izb tests", GL_R32UI, shape_.width_px, shape_.height_px));
+}
+
+std::vector<float> Izb::fragments_a_texel(const FrameInputs& in, Visibility& out) {
+  const gpu::Capabilities capabilities = gpu::query_capabilities();
+  gpu::expect_room({{"fragments a texel",
+                     {gpu::planned_texture("fragments", GL_R32UI, built_.grid, built_.grid, {"--grid", "--cascades"},
+                                           heads_.layers())}}},
+                   gpu::memory_room(capabilities), capabilities);
+  return work(in, out, IzbProgram::visibility_fragments,
+              gpu::Texture::array("izb fragments", GL_R32UI, built_.grid, built_.grid, heads_.layers()));
 }
 
 std::string Izb::fault() const {

@@ -12,20 +12,35 @@ namespace {
 
 bool belongs(IzbProgram program, const IzbSettings& settings) {
   if (program == IzbProgram::count_nodes) return settings.pool();
-  if (program >= IzbProgram::hardware && program <= IzbProgram::hardware_counted) return settings.hardware();
+  if (program >= IzbProgram::hardware && program <= IzbProgram::hardware_fragments) return settings.hardware();
   return true;
 }
 
 bool counts(IzbProgram program) {
-  return program == IzbProgram::visibility_counted || program == IzbProgram::visibility_counted_all ||
-         program == IzbProgram::hardware_counted;
+  return (program >= IzbProgram::visibility_counted && program <= IzbProgram::visibility_fragments) ||
+         (program >= IzbProgram::hardware_counted && program <= IzbProgram::hardware_fragments);
 }
 
 }  // namespace
 
 bool knows_masks(IzbProgram program, const IzbSettings& settings) {
   if (program == IzbProgram::settle) return settings.alpha == "exact";  // else the walk has asked before
-  return settings.alpha_masks() && program >= IzbProgram::visibility && program <= IzbProgram::hardware_counted;
+  return settings.alpha_masks() && program >= IzbProgram::visibility && program <= IzbProgram::hardware_fragments;
+}
+
+IzbProgram hardware_of(IzbProgram visibility) {
+  switch (visibility) {
+    case IzbProgram::visibility:
+      return IzbProgram::hardware;
+    case IzbProgram::visibility_in_double:
+      return IzbProgram::hardware_in_double;
+    case IzbProgram::visibility_tests:
+      return IzbProgram::hardware_tests;
+    case IzbProgram::visibility_fragments:
+      return IzbProgram::hardware_fragments;
+    default:
+      return IzbProgram::hardware_counted;
+  }
 }
 
 gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, LightKind light, bool masked) {
@@ -44,14 +59,15 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
     define(masked, s.alpha == "exact" ? "ALPHA_EXACT" : "ALPHA_FRAGMENT");
   };
   const int faces = light == LightKind::cube ? shared::cube_faces : 1;
-  const auto fragment_defines = [&](const char* variant) {
+  const auto fragment_defines = [&](const std::string& variant) {
     walk_defines();
     define(faces > 1, "CUBE");
     define(s.removal, "REMOVAL");
     define(s.unchanged_skip, "SKIP");
     define(s.pipelining, "PIPELINE");
     if (s.cascades * faces > 1) defines["LAYERS"] = std::to_string(s.layers_a_pass(faces));
-    if (*variant) defines[variant] = "1";
+    if (!variant.empty()) defines[variant] = "1";
+    define(variant.starts_with("COUNT_"), "COUNT");
   };
   const auto visibility = [&](bool pyramid, const char* variant) -> gpu::ProgramSpec {
     fragment_defines(variant);
@@ -104,12 +120,20 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
       return visibility(s.pyramid(), "COUNT");
     case IzbProgram::visibility_counted_all:
       return visibility(false, "COUNT");
+    case IzbProgram::visibility_tests:
+      return visibility(s.pyramid(), "COUNT_TESTS");
+    case IzbProgram::visibility_fragments:
+      return visibility(s.pyramid(), "COUNT_FRAGMENTS");
     case IzbProgram::hardware:
       return hardware("");
     case IzbProgram::hardware_in_double:
       return hardware("IN_DOUBLE");
     case IzbProgram::hardware_counted:
       return hardware("COUNT");
+    case IzbProgram::hardware_tests:
+      return hardware("COUNT_TESTS");
+    case IzbProgram::hardware_fragments:
+      return hardware("COUNT_FRAGMENTS");
     case IzbProgram::settle:
       walk_defines();
       defines.insert(s.geometry.begin(), s.geometry.end());
@@ -167,9 +191,15 @@ std::vector<gpu::ProgramSpec> izb_program_specs() {
   return all;
 }
 
-IzbPrograms::IzbPrograms(const IzbSettings& settings) : settings_(settings) {
-  for (auto& kind : programs_)
-    for (std::vector<gpu::Program>& part : kind) part.resize(static_cast<size_t>(IzbProgram::count));
+void IzbPrograms::follow(const IzbSettings& settings) {
+  settings_ = settings;
+  for (const LightKind light : {LightKind::directional, LightKind::positional, LightKind::cube})
+    for (const bool masked : {false, true})
+      for (int p = 0; p < static_cast<int>(IzbProgram::count); ++p) {
+        gpu::Program& made = programs_[static_cast<size_t>(light)][masked][static_cast<size_t>(p)];
+        if (made && !made.is(izb_program_spec(static_cast<IzbProgram>(p), settings_, light, masked)))
+          made = gpu::Program();
+      }
 }
 
 void IzbPrograms::prepare(LightKind light, bool masked_casters) {

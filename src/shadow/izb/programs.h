@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which program each stage of the technique `izb` takes, by its options and the kind of the light.
 #pragma once
+#include <array>
 #include <vector>
 
 #include "gpu/program.h"
@@ -19,9 +20,13 @@ enum class IzbProgram {
   visibility_in_double,
   visibility_counted,
   visibility_counted_all,
-  hardware,  ///< of --raster hw, before the one of the same variant above
+  visibility_tests,      ///< counted, also by pixel
+  visibility_fragments,  ///< counted, also by texel
+  hardware,              ///< of --raster hw, before the one of the same variant above
   hardware_in_double,
   hardware_counted,
+  hardware_tests,
+  hardware_fragments,
   settle,
   overflow,
   count
@@ -31,6 +36,8 @@ enum class IzbProgram {
 /// A cube is a positional light with six grids.
 enum class LightKind { directional, positional, cube };
 
+/// What --raster hw draws before it.
+IzbProgram hardware_of(IzbProgram visibility);
 /// Whether it has a variant for casters with an alpha mask.
 bool knows_masks(IzbProgram program, const IzbSettings& settings);
 
@@ -41,11 +48,11 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& setting
 /// Every program of the defaults, of each option alone from the defaults, and of the presets, for each kind of light.
 std::vector<gpu::ProgramSpec> izb_program_specs();
 
-/// The programs of one setting, compiled when a frame's light first needs them.
+/// The programs of one setting at a time, compiled when a frame's light first needs them.
 class IzbPrograms {
  public:
-  IzbPrograms() = default;
-  explicit IzbPrograms(const IzbSettings& settings);
+  /// Keeps those that are the same under the new settings.
+  void follow(const IzbSettings& settings);
   /// Compiles what frames under such a light need, with masked casters or without, so that nothing is compiled within a
   /// stage.
   void prepare(LightKind light, bool masked_casters);
@@ -56,7 +63,8 @@ class IzbPrograms {
  private:
   IzbSettings settings_;
   LightKind light_ = LightKind::directional;
-  std::vector<gpu::Program> programs_[3][2];  ///< by the kind of light, and whether of masked casters
+  std::array<gpu::Program, static_cast<size_t>(IzbProgram::count)>
+      programs_[3][2];  ///< by the kind of light, and whether of masked casters
 };
 
 }  // namespace izb
