@@ -9,6 +9,7 @@
 #include "app/peer.h"
 #include "app/results.h"
 #include "app/sequence.h"
+#include "app/session.h"
 #include "app/statistics.h"
 #include "base/error.h"
 #include "base/json_text.h"
@@ -92,8 +93,8 @@ void print_table(const nlohmann::json& json) {
 }
 
 /// What a frame is, before it is rendered.
-nlohmann::json facts_of(const Session& s, RenderOptions& o, std::optional<int> frame) {
-  nlohmann::json json = provenance(s, o.frame, *s.technique, o.arguments, o.scene);
+nlohmann::json facts_of(Session& s, RenderOptions& o, std::optional<int> frame) {
+  nlohmann::json json = provenance(s.rendered(), o.frame, o.arguments, o.scene);
   json["options"].update(o.options().to_json());
   if (frame) json["frame"] = *frame;
   if (frame || o.frame.plays()) json["time_s"] = s.moment.time_s;
@@ -114,13 +115,13 @@ struct FrameFiles {
 /// Renders the frame where the session stands, and writes it. Returns its JSON.
 nlohmann::json write_frame(Session& s, const RenderOptions& o, nlohmann::json json, FrameFiles& files) {
   const Timed timed = render_frames(s, o);
-  json.update(masks_json(s));
+  json.update(masks_json(s.rendered()));
   json["stages"] = stages_json(s.timers);
   json["frame_ms"] = median(timed.frame_ms);
   json.update(memory_json(s.renderer));
   if (!timed.peer.is_null()) json["peer"] = timed.peer;
-  const Image image = frame_image(s, json);
-  add_statistics(json, s);
+  const Image image = frame_image(s.rendered(), json);
+  add_statistics(json, s.rendered());
   const std::vector<float>& depth = image.floats("depth");
   if (std::none_of(depth.begin(), depth.end(), [](float d) { return d > 0.0f; }))
     warn("no triangle of '{}' is in view: the picture shows the sky", o.scene);

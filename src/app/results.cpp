@@ -32,9 +32,9 @@ std::array<float, 16> floats_of(const glm::dmat4& m) {
 }
 
 /// OpenEXR's camera space looks along +z; its NDC runs from the upper left corner (0, 0) to the lower right (1, 1).
-void add_camera(Image& image, const Session& session) {
-  const glm::dmat4 view = glm::inverse(session.frame.camera.world_from_view);
-  const glm::dmat4 clip = glm::dmat4(session.renderer.inputs().camera.clip_from_view);
+void add_camera(Image& image, const RenderedFrame& rendered) {
+  const glm::dmat4 view = glm::inverse(rendered.frame.camera.world_from_view);
+  const glm::dmat4 clip = glm::dmat4(rendered.renderer.inputs().camera.clip_from_view);
   const glm::dmat4 upper_left =
       glm::translate(glm::dmat4(1.0), {0.5, 0.5, 0.0}) * glm::scale(glm::dmat4(1.0), {0.5, -0.5, 1.0});
   image.attributes["worldToCamera"] = floats_of(glm::scale(glm::dmat4(1.0), {1.0, 1.0, -1.0}) * view);
@@ -42,9 +42,9 @@ void add_camera(Image& image, const Session& session) {
 }
 
 /// What the channels of a light are called after the first word: nothing where there is one light.
-std::string suffix_of(const Session& session, size_t light) {
-  if (session.frame.lights.size() == 1) return {};
-  return "." + layer_name(session.frame.lights[light].name);
+std::string suffix_of(const RenderedFrame& rendered, size_t light) {
+  if (rendered.frame.lights.size() == 1) return {};
+  return "." + layer_name(rendered.frame.lights[light].name);
 }
 
 void add_light(Image& image, const Light& light, const std::string& suffix) {
@@ -63,23 +63,23 @@ void add_light(Image& image, const Light& light, const std::string& suffix) {
 
 }  // namespace
 
-nlohmann::json provenance(const Session& session, const FrameOptions& options, Technique& technique,
-                          const Arguments& arguments, const std::string& scene_path) {
+nlohmann::json provenance(const RenderedFrame& rendered, const FrameOptions& options, const Arguments& arguments,
+                          const std::string& scene_path) {
   FrameOptions copy = options;
   nlohmann::json facts;
   facts["command"] = command_line(arguments);
   facts["version"] = fmt::format("{} ({})", version(), commit());
-  facts["gl"] = {{"context", session.gl.context.name},
-                 {"vendor", session.gl.capabilities.vendor},
-                 {"renderer", session.gl.capabilities.renderer},
-                 {"version", session.gl.capabilities.version}};
+  facts["gl"] = {{"context", rendered.gl.context.name},
+                 {"vendor", rendered.gl.capabilities.vendor},
+                 {"renderer", rendered.gl.capabilities.renderer},
+                 {"version", rendered.gl.capabilities.version}};
   facts["options"] = copy.options().to_json();
-  facts["options"].update(technique.options().to_json());
-  facts["technique"] = technique.info().name;
+  facts["options"].update(rendered.technique.options().to_json());
+  facts["technique"] = rendered.technique.info().name;
   facts["scene"] = {{"file", scene_path},
-                    {"triangles", session.scene.triangle_count()},
-                    {"geometry_bytes", session.scene.geometry_bytes()}};
-  facts["timing"] = session.timers.method();
+                    {"triangles", rendered.scene.triangle_count()},
+                    {"geometry_bytes", rendered.scene.geometry_bytes()}};
+  facts["timing"] = rendered.timers.method();
   return facts;
 }
 
@@ -89,20 +89,20 @@ std::string mask_hash(std::span<const std::vector<uint32_t>> masks) {
   return sha256_hex(std::as_bytes(std::span(all)));
 }
 
-nlohmann::json masks_json(const Session& session) {
+nlohmann::json masks_json(const RenderedFrame& rendered) {
   std::vector<std::vector<uint32_t>> masks;
   nlohmann::json lights = nlohmann::json::array();
-  for (size_t i = 0; i < session.renderer.light_count(); ++i) {
-    masks.push_back(session.renderer.read_mask(i));
-    lights.push_back({{"name", session.frame.lights[i].name},
-                      {"type", type_name(session.frame.lights[i].type)},
+  for (size_t i = 0; i < rendered.renderer.light_count(); ++i) {
+    masks.push_back(rendered.renderer.read_mask(i));
+    lights.push_back({{"name", rendered.frame.lights[i].name},
+                      {"type", type_name(rendered.frame.lights[i].type)},
                       {"mask_hash", mask_hash({&masks.back(), 1})}});
   }
-  return {{"mask_hash", mask_hash(masks)}, {"lights", lights}, {"exposure", session.renderer.exposure()}};
+  return {{"mask_hash", mask_hash(masks)}, {"lights", lights}, {"exposure", rendered.renderer.exposure()}};
 }
 
-Image frame_image(Session& session, const nlohmann::json& facts) {
-  const FrameInputs& in = session.renderer.inputs();
+Image frame_image(const RenderedFrame& rendered, const nlohmann::json& facts) {
+  const FrameInputs& in = rendered.renderer.inputs();
   const GBufferImage gbuffer = read_gbuffer(*in.gbuffer);
   Image image;
   image.width_px = in.width_px;
@@ -110,7 +110,7 @@ Image frame_image(Session& session, const nlohmann::json& facts) {
   const size_t count = gbuffer.size();
 
   std::vector<glm::vec4> picture(count);
-  session.renderer.picture().read_bytes(GL_RGBA, GL_FLOAT, count * sizeof(glm::vec4), picture.data());
+  rendered.renderer.picture().read_bytes(GL_RGBA, GL_FLOAT, count * sizeof(glm::vec4), picture.data());
   picture = flip_rows(std::move(picture), in.width_px, in.height_px);
   const auto plane = [&](const std::string& name, auto&& value) {
     std::vector<float> values(count);
@@ -122,22 +122,22 @@ Image frame_image(Session& session, const nlohmann::json& facts) {
   plane("B", [&](size_t i) { return picture[i].b; });
   plane("depth", [&](size_t i) { return gbuffer.eye_distance[i]; });
   std::vector<glm::vec3> normals(count, glm::vec3(0.0f));
-  const glm::mat3 world_from_view = glm::mat3(session.frame.camera.world_from_view);
+  const glm::mat3 world_from_view = glm::mat3(rendered.frame.camera.world_from_view);
   for (size_t i = 0; i < count; ++i)
     if (gbuffer.eye_distance[i] > 0.0f) normals[i] = world_from_view * shared::octahedral_decode(gbuffer.normal[i]);
   plane("normal.X", [&](size_t i) { return normals[i].x; });
   plane("normal.Y", [&](size_t i) { return normals[i].y; });
   plane("normal.Z", [&](size_t i) { return normals[i].z; });
-  for (size_t light = 0; light < session.renderer.light_count(); ++light) {
-    const std::string suffix = suffix_of(session, light);
-    std::vector<uint32_t> mask = session.renderer.read_mask(light);
+  for (size_t light = 0; light < rendered.renderer.light_count(); ++light) {
+    const std::string suffix = suffix_of(rendered, light);
+    std::vector<uint32_t> mask = rendered.renderer.read_mask(light);
     plane("visibility" + suffix, [&](size_t i) { return 1.0f - float(std::popcount(mask[i])) / 32.0f; });
-    if (std::vector<float> lengths = session.renderer.list_lengths(light); !lengths.empty())
+    if (std::vector<float> lengths = rendered.renderer.list_lengths(light); !lengths.empty())
       image.add("list_length" + suffix, flip_rows(std::move(lengths), in.width_px, in.height_px));
     image.add("mask" + suffix, std::move(mask));
-    add_light(image, session.frame.lights[light], suffix);
+    add_light(image, rendered.frame.lights[light], suffix);
   }
-  add_camera(image, session);
+  add_camera(image, rendered);
   for (const auto& [key, value] : facts.items())
     image.attributes["izb." + key] = value.is_string() ? value.get<std::string>() : json_text(value);
   return image;

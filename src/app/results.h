@@ -6,25 +6,25 @@
 #include <span>
 
 #include "app/commands.h"
-#include "app/session.h"
+#include "app/rendered_frame.h"
 #include "image/image.h"
 
 namespace izb {
 
 /// How a result came about: command line, version, GL strings, options, scene. The same keys in every JSON.
-nlohmann::json provenance(const Session& session, const FrameOptions& options, Technique& technique,
-                          const Arguments& arguments, const std::string& scene_path);
+nlohmann::json provenance(const RenderedFrame& rendered, const FrameOptions& options, const Arguments& arguments,
+                          const std::string& scene_path);
 
 /// SHA-256 of the mask's words, little-endian, top row first; of several masks of one after the other.
 std::string mask_hash(std::span<const std::vector<uint32_t>> masks);
 
 /// `mask_hash` of all masks of the last frame, `lights` (name, type, mask_hash), and `exposure`.
-nlohmann::json masks_json(const Session& session);
+nlohmann::json masks_json(const RenderedFrame& rendered);
 
 /// The last frame as channels R G B, depth, normal.X/Y/Z, and of its light mask, visibility, list_length (where the
 /// technique has lists): of several lights mask.NAME and so on. With the standard attributes worldToCamera and
 /// worldToNDC, the lights, and `facts` as text.
-Image frame_image(Session& session, const nlohmann::json& facts);
+Image frame_image(const RenderedFrame& rendered, const nlohmann::json& facts);
 
 double median(std::vector<double> values);
 

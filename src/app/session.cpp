@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/session.h"
 
-#include <cstdlib>
-
 #include "base/error.h"
 #include "base/log.h"
 #include "base/progress.h"
@@ -41,12 +39,6 @@ std::unique_ptr<Technique> another(Technique& technique) {
     std::visit([&](auto* value) { *value = *std::get<decltype(value)>(from.options()[i].value); },
                to.options()[i].value);
   return copy;
-}
-
-Gl::Gl(const std::string& context_name)
-    : context(gpu::create_context(context_name, std::getenv("IZB_GL_DEBUG") != nullptr)),
-      capabilities(gpu::query_capabilities()) {
-  if (std::getenv("IZB_GL_DEBUG")) gpu::enable_debug_messages();
 }
 
 namespace {

@@ -3,9 +3,7 @@
 #pragma once
 #include <memory>
 
-#include "app/frame_options.h"
-#include "gpu/context.h"
-#include "shadow/renderer.h"
+#include "app/rendered_frame.h"
 
 namespace izb {
 
@@ -15,19 +13,13 @@ std::unique_ptr<Technique> technique_of(const std::vector<std::string>& argument
 /// Another of the same name, whose options have the same values.
 std::unique_ptr<Technique> another(Technique& technique);
 
-/// A GL context and what the driver says of itself. $IZB_GL_DEBUG set: KHR_debug messages are shown, and counted.
-struct Gl {
-  explicit Gl(const std::string& context_name);
-  gpu::ContextResult context;
-  gpu::Capabilities capabilities;
-};
-
 /// Everything for frames of one scene. The technique is its own, since GL objects must not outlive their context.
 /// It stands at the options' --time.
 struct Session {
   Session(const FrameOptions& options, std::unique_ptr<Technique> its_technique, const std::string& scene_path);
   /// Moves what is animated, the camera and the lights to another moment.
   void move_to(double time_s);
+  RenderedFrame rendered() { return {scene, frame, gl, renderer, *technique, timers}; }
 
   Scene scene;
   Poser poser;

@@ -39,20 +39,20 @@ nlohmann::json averages_json(const nlohmann::json& counts) {
 
 }  // namespace
 
-void add_statistics(nlohmann::json& json, Session& session) {
+void add_statistics(nlohmann::json& json, const RenderedFrame& rendered) {
   nlohmann::json all = nlohmann::json::object();
   std::vector<uint64_t> histogram;
-  for (size_t light = 0; light < session.renderer.light_count(); ++light) {
-    nlohmann::json counts = counts_json(session.renderer.count(light));
-    counts.update(counts_json(receiver_counts(session.renderer, light)));
+  for (size_t light = 0; light < rendered.renderer.light_count(); ++light) {
+    nlohmann::json counts = counts_json(rendered.renderer.count(light));
+    counts.update(counts_json(receiver_counts(rendered.renderer, light)));
     for (const auto& [name, value] : counts.items()) {
       const uint64_t before = all.value(name, uint64_t{0}), its = value.get<uint64_t>();
       all[name] = name == "longest_list" ? std::max(before, its) : before + its;
     }
-    const std::vector<uint64_t> its = session.renderer.list_histogram(light);
+    const std::vector<uint64_t> its = rendered.renderer.list_histogram(light);
     if (histogram.size() < its.size()) histogram.resize(its.size());
     for (size_t n = 0; n < its.size(); ++n) histogram[n] += its[n];
-    if (session.renderer.light_count() > 1)
+    if (rendered.renderer.light_count() > 1)
       json["lights"][light].update({{"counts", counts}, {"averages", averages_json(counts)}});
   }
   json["counts"] = all;

@@ -3,13 +3,13 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
-#include "app/session.h"
+#include "app/rendered_frame.h"
 
 namespace izb {
 
 /// Adds to the JSON of a frame, which has its `lights`: `counts`, `averages` and, where the technique has lists,
 /// `list_histogram`, of the last frame, by a frame of its own. They are sums over the lights; of several lights each
 /// has its own counts and averages, too.
-void add_statistics(nlohmann::json& json, Session& session);
+void add_statistics(nlohmann::json& json, const RenderedFrame& rendered);
 
 }  // namespace izb

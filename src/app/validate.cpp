@@ -146,7 +146,7 @@ std::vector<SceneReport> validate_scene(const ValidateOptions& o, const std::str
   if (frame.viewpoint == "auto") frame.viewpoint = stem(scene_path);
   Session s(frame, another(*o.technique), scene_path);
   const std::vector<Masks> masks = render_masks(s);
-  nlohmann::json json = provenance(s, frame, *s.technique, o.arguments, scene_path);
+  nlohmann::json json = provenance(s.rendered(), frame, o.arguments, scene_path);
   json["options"]["points"] = o.points;
   json.update(memory_json(s.renderer));
   if (s.renderer.scene_buffers().deforms())
