@@ -7,6 +7,7 @@
 #include <glm/gtc/constants.hpp>
 #include <limits>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "base/error.h"
@@ -118,6 +119,38 @@ void set_strength(std::vector<Light>& lamps, const Scene& scene) {
   for (Light& lamp : lamps) lamp.intensity = static_cast<float>(reach * reach);
 }
 
+/// A unit vector as it is, so that one that was printed in full comes back.
+glm::dvec3 unit(const glm::dvec3& v) {
+  if (std::abs(glm::dot(v, v) - 1.0) <= 8.0 * std::numeric_limits<double>::epsilon()) return v;
+  return glm::normalize(v / std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}));  // whose square may overflow
+}
+
+/// Where --light-position and --light-direction put the lights that --light chose.
+std::vector<LightPlace> light_places(const FrameOptions& o, std::span<const Light> lights) {
+  std::vector<LightPlace> places(lights.size());
+  const auto each = [&](const std::string& option, const std::string& text, LightType refused, const char* reason,
+                        auto&& put) {
+    const std::vector<std::string> entries = list_of(text);
+    if (entries.size() > lights.size())
+      throw UsageError(
+          fmt::format("--{} has {} entries, but --light chooses {} lights", option, entries.size(), lights.size()));
+    for (size_t i = 0; i < entries.size(); ++i) {
+      if (entries[i].empty()) continue;
+      if (lights[i].type == refused)
+        throw UsageError(fmt::format("--{} cannot move the light '{}': {}", option, lights[i].name, reason));
+      put(places[i], parse_vector(option, entries[i]));
+    }
+  };
+  each("light-position", o.light_position, LightType::directional, "a directional light has no position",
+       [](LightPlace& place, const glm::dvec3& position_ws) { place.position_ws = position_ws; });
+  each("light-direction", o.light_direction, LightType::point, "a point light shines in all directions",
+       [](LightPlace& place, const glm::dvec3& direction_ws) {
+         if (direction_ws == glm::dvec3(0.0)) throw UsageError("--light-direction must not be 0,0,0");
+         place.direction_ws = unit(direction_ws);
+       });
+  return places;
+}
+
 /// Channels and hashes go by the names.
 void make_names_unique(std::vector<Light>& lights) {
   std::set<std::string> taken;
@@ -167,6 +200,11 @@ OptionSet FrameOptions::options() {
   set.text("light", light, "NAME|INDEX|all",
            "a light of the scene, or several with semicolons between them, or all; without any light, the scene's "
            "first, or a sun. --sun, --spot and --point take several in the same way and may be given together");
+  set.text("light-position", light_position, "X,Y,Z",
+           "moves the lights that --light chooses, in that order with semicolons between them, to positions in world "
+           "units, wherever the scene has them; nothing between two semicolons leaves a light where it is");
+  set.text("light-direction", light_direction, "X,Y,Z",
+           "turns them in the same way: the direction in which the light shines, of any length");
   set.text("sun", sun, "AZIMUTH,ELEVATION",
            "a directional light: degrees clockwise from -z, degrees above the horizon");
   set.text("spot", spot, "X,Y,Z,TX,TY,TZ,ANGLE",
@@ -209,15 +247,28 @@ void FrameChoice::move(const Poser& poser, double time_s) {
   else
     poser.place(camera);
   for (Light& light : lights) poser.place(light);
+  place_lights();
+}
+
+void FrameChoice::place_lights() {
+  for (size_t i = 0; i < places.size(); ++i) {
+    if (places[i].position_ws) lights[i].position_ws = *places[i].position_ws;
+    if (places[i].direction_ws) lights[i].direction_ws = *places[i].direction_ws;
+  }
 }
 
 FrameChoice choose_frame(const FrameOptions& o, const Scene& scene) {
   if (o.eye.empty() != o.target.empty()) throw UsageError("--eye and --target go together");
+  if (o.light.empty() && !(o.light_position.empty() && o.light_direction.empty()))
+    throw UsageError("--light-position and --light-direction move lights of the scene: --light must say which");
   if (!o.eye.empty() + !o.camera.empty() + !o.camera_path.empty() > 1)
     throw UsageError("--camera, --eye and --camera-path exclude each other");
   std::optional<Viewpoint> viewpoint;
   if (!o.viewpoint.empty()) viewpoint = read_viewpoint(find_views(o.views), o.viewpoint);
   FrameChoice choice{parse_size(o.size), {}, {}, choose_lights(o, scene, viewpoint)};
+  const size_t chosen = o.light.empty() ? 0 : scene_lights(scene, o.light).size();
+  choice.places = light_places(o, std::span(choice.lights).first(chosen));
+  choice.place_lights();
   if (!o.camera_path.empty()) choice.path = read_camera_path(o.camera_path);
   choice.camera = choice.path ? choice.path->at(std::max(o.time_s, 0.0)) : choose_camera(o, scene, viewpoint);
   make_names_unique(choice.lights);

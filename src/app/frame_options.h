@@ -19,7 +19,7 @@ struct FrameOptions {
   std::string size = "1280x720";
   std::string camera, camera_path, eye, target;
   double fov_deg = 45.0;
-  std::string light, sun, spot, point;
+  std::string light, light_position, light_direction, sun, spot, point;
   std::string viewpoint;
   std::string animation;
   double time_s = -1.0;
@@ -42,6 +42,11 @@ struct Size {
   int width_px, height_px;
 };
 
+/// Where a light was put, whatever its node says.
+struct LightPlace {
+  std::optional<glm::dvec3> position_ws, direction_ws;  ///< the direction has unit length
+};
+
 /// A frame that the person asked for, with what had to be chosen for them said on stderr.
 struct FrameChoice {
   Size size;
@@ -49,8 +54,11 @@ struct FrameChoice {
   std::optional<CameraPath> path;  ///< that the camera follows
   std::vector<Light> lights;       ///< at least one; no two have the same layer_name()
 
-  /// Camera and lights to where their nodes, or the path, are at that moment.
+  std::vector<LightPlace> places{};  ///< of the first lights
+  /// Camera and lights to where their nodes, or the path or the places, are at that moment.
   void move(const Poser& poser, double time_s);
+  /// Lights to their places.
+  void place_lights();
 };
 
 /// Throws izb::UsageError for text that does not parse or options that exclude each other, izb::Error for names that

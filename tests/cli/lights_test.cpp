@@ -2,6 +2,9 @@
 // Several lights at once: each has a mask, a channel and a hash of its own.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -95,6 +98,86 @@ TEST_F(Lights, WithoutAChoiceTheFirstIsTakenAndTheOthersAreMentioned) {
   EXPECT_TRUE(outcome.says("3 lights")) << outcome.err;
   EXPECT_TRUE(outcome.says("--light all")) << outcome.err;
   EXPECT_EQ(read_json(json_file)["lights"][0]["name"], "noon");
+}
+
+std::string full(const std::array<double, 3>& v) {
+  char text[96];
+  std::snprintf(text, sizeof text, "%.17g,%.17g,%.17g", v[0], v[1], v[2]);
+  return text;
+}
+
+/// Where the sun of that azimuth and elevation shines to.
+std::array<double, 3> away_from_sun(double azimuth_deg, double elevation_deg) {
+  const double a = azimuth_deg * (M_PI / 180.0), e = elevation_deg * (M_PI / 180.0);
+  return {-(std::sin(a) * std::cos(e)), -std::sin(e), std::cos(a) * std::cos(e)};
+}
+
+TEST_F(Lights, MovedAreThoseOfTheCommandLine) {
+  const auto hash = [&](const std::vector<std::string>& words, size_t light = 0) {
+    const Outcome outcome = render(words);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return read_json(json_file)["lights"][light]["mask_hash"].get<std::string>();
+  };
+  const std::string sun = full(away_from_sun(200, 50)), lamp = full({-1.0 / 3.0, 1.7, 0.1});
+  EXPECT_EQ(hash({"--light", "noon", "--light-direction", sun}), hash({"--sun", "200,50"}));
+  EXPECT_EQ(hash({"--light", "noon", "--light-direction", "0,-1e-200,1e-200"}), hash({"--sun", "0,45"}));
+  EXPECT_EQ(hash({"--light", "lamp", "--light-position", lamp}), hash({"--point", lamp}));
+  const std::string angle = "74.484513367007022";  // 1.3 radians
+  EXPECT_EQ(hash({"--light", "beam", "--light-position", "2,4,1", "--light-direction", "-40,-80,-20"}),
+            hash({"--spot", "2,4,1,0,0,0," + angle}));
+  EXPECT_NE(hash({"--light", "beam", "--light-position", "2,4,1"}), hash({"--light", "beam"}));
+  // In the order of --light; nothing between semicolons leaves one as it is.
+  const std::vector<std::string> two{"--light", "beam;noon", "--light-direction", ";" + sun};
+  EXPECT_EQ(hash(two, 0), hash({"--light", "beam"}));
+  EXPECT_EQ(hash(two, 1), hash({"--sun", "200,50"}));
+  const std::vector<std::string> all{"--light", "all", "--light-position", ";" + lamp + ";", "--light-direction", sun};
+  EXPECT_EQ(hash(all, 0), hash({"--sun", "200,50"}));
+  EXPECT_EQ(hash(all, 1), hash({"--point", lamp}));
+  EXPECT_EQ(hash(all, 2), hash({"--light", "beam"}));
+}
+
+TEST_F(Lights, MovedStayThereWhereverTheirNodesGo) {
+  GltfWriter gltf = three_lights();
+  const int times = gltf.add_array(std::vector<float>{0, 1}, type_float, "SCALAR", 1);
+  const int places = gltf.add_array(std::vector<float>{1, 2, 0, -1, 3, 0}, type_float, "VEC3", 3);
+  const json lamp_node = gltf.root["nodes"].size() - 2;
+  gltf.append(
+      "animations",
+      {{"name", "swing"},
+       {"samplers", {{{"input", times}, {"output", places}}}},
+       {"channels", json::array({{{"sampler", 0}, {"target", {{"node", lamp_node}, {"path", "translation"}}}}})}});
+  write_file(scene, gltf.glb());
+  const auto hash = [&](const std::vector<std::string>& words) {
+    const Outcome outcome = render(words);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return read_json(json_file)["mask_hash"].get<std::string>();
+  };
+  EXPECT_NE(hash({"--light", "lamp", "--time", "0"}), hash({"--light", "lamp", "--time", "1"}));
+  const std::string here = hash({"--point", "0.5,2.5,0.5"});
+  EXPECT_EQ(hash({"--light", "lamp", "--light-position", "0.5,2.5,0.5", "--time", "1"}), here);
+  const fs::path frames = folder / "f####.json";
+  ASSERT_EQ(izb::test::izb({"render", scene, "--size", "160x120", "--grid", "256", "--light", "lamp",
+                            "--light-position", "0.5,2.5,0.5", "--frames", "0:1", "--fps", "1", "--json", frames})
+                .code,
+            0);
+  for (const char* name : {"f0000.json", "f0001.json"}) EXPECT_EQ(read_json(folder / name)["mask_hash"], here) << name;
+}
+
+TEST_F(Lights, CannotBeMovedAsTheyAreNot) {
+  const auto refuse = [&](std::vector<std::string> words, const std::vector<std::string>& says) {
+    const Outcome outcome = render(words);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    for (const std::string& word : says) EXPECT_TRUE(outcome.says(word)) << word << ": " << outcome.err;
+    EXPECT_EQ(outcome.error_lines().size(), 1u) << outcome.err;
+  };
+  refuse({"--light-position", "1,2,3"}, {"--light-position", "--light must say which"});
+  refuse({"--sun", "0,40", "--light-direction", "1,2,3"}, {"--light-direction", "--light must say which"});
+  refuse({"--light", "noon", "--light-position", "1,2,3"}, {"'noon'", "has no position"});
+  refuse({"--light", "noon;lamp", "--light-direction", "1,2,3;1,2,3"}, {"'lamp'", "all directions"});
+  refuse({"--light", "lamp", "--sun", "0,40", "--light-position", "1,2,3;4,5,6"}, {"2 entries", "1 lights"});
+  refuse({"--light", "noon", "--light-direction", "0,0,0"}, {"must not be 0,0,0"});
+  refuse({"--light", "lamp", "--light-position", "1,2"}, {"--light-position must be 3 numbers"});
+  refuse({"--light", "lamp", "--light-position", "1,nan,2"}, {"--light-position must be 3 numbers"});
 }
 
 TEST_F(Lights, AnUnknownOneIsRefusedWithTheNamesThereAre) {
