@@ -221,7 +221,8 @@ OptionSet FrameOptions::options() {
   set.choice("technique", technique, technique_names(), "the shadow technique; its own options are listed below");
   set.text(
       "preset", preset, "NAME",
-      "the technique's options as a whole, others on the command line still count: izb has paper (table 1) and exact");
+      "the technique's options as a whole, others on the command line still count: izb has paper (table 1), exact, and "
+      "fast, which leaks a little");
   set.choice("context", context, gpu::context_names(), "how to get an OpenGL 4.5 context");
   return set;
 }

@@ -56,7 +56,7 @@ int IzbSettings::pairs(int width_px, int height_px) const {
 }
 
 std::vector<std::string> IzbSettings::preset_names() {
-  return {"paper", "exact"};
+  return {"paper", "exact", "fast"};
 }
 
 void IzbSettings::apply(const std::string& preset) {
@@ -73,6 +73,12 @@ void IzbSettings::apply(const std::string& preset) {
     sampling.spp = "32";
     coverage = insertion = alpha = "exact";
     pair_capacity = 1 << 22;
+  } else if (preset == "fast") {  // leaks a little, and cuts alpha masks as coarsely as the grid
+    sampling.spp = "32";
+    coverage = "lut";
+    insertion = "approximate";
+    nodes = 2;
+    alpha = "fragment";
   } else {
     throw UsageError(fmt::format("unknown preset '{}': there are {}", preset, fmt::join(preset_names(), ", ")));
   }
