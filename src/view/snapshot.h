@@ -29,6 +29,8 @@ struct Snapshot {
   std::vector<float> tests;                  ///< frustum-triangle tests that the pixel took part in
   std::vector<float> fragments;              ///< of each texel of all layers of the grid, indexed as `built`
   std::vector<shared::LightWindow> windows;  ///< one a layer
+  shared::CascadeRange cascades;             ///< where the cascades end; comes with `windows`
+  std::vector<uint32_t> first_triangle;      ///< in the frame's numbering, of each instance of the G-buffer's ids
   std::optional<IzbInternals> built;         ///< lists as `build` made them
   std::optional<IzbInternals> left;          ///< lists as `visibility` left them, without what it removed
 
