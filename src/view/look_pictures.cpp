@@ -65,11 +65,11 @@ LookPicture normal(const Snapshot& s, int) {
   return of_surfaces(s, [&](size_t i) { return direction_color(s, normal_vs(s, i)); });
 }
 
-// Where a pixel has none, shading takes the geometric one.
+// As shading takes it: on the viewer's side, and where a pixel has none, the geometric one.
 LookPicture shading_normal(const Snapshot& s, int) {
   return of_surfaces(s, [&](size_t i) {
-    const glm::vec3& n = s.shading_normal[i];
-    return direction_color(s, n == glm::vec3(0.0f) ? normal_vs(s, i) : n);
+    const glm::vec3 geometric = normal_vs(s, i), &n = s.shading_normal[i];
+    return direction_color(s, n == glm::vec3(0.0f) ? geometric : glm::dot(n, geometric) < 0.0f ? -n : n);
   });
 }
 
@@ -113,7 +113,7 @@ LookPicture errors(const Snapshot& s, int) {
     const int leaks = std::popcount(s.truth[i] & ~s.mask[i]), falsely = std::popcount(s.mask[i] & ~s.truth[i]);
     const int wrong = std::max(leaks, falsely);
     if (wrong == 0) return grey(dim_grey(s, i) * (1.0f - 0.6f * float(std::popcount(s.truth[i])) / 32.0f));
-    return dimmed(leaks >= falsely ? leak_color : false_shadow_color, 0.45f + 0.55f * float(wrong) / 32.0f);
+    return dimmed(leaks >= falsely ? leak_color : false_shadow_color, 0.6f + 0.4f * float(wrong) / 32.0f);
   });
 }
 

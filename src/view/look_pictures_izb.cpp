@@ -13,25 +13,33 @@ namespace {
 constexpr float none = -1.0f;           // in place of a value
 constexpr Rgb unused_color{8, 20, 22};  // texels beyond those in use
 
-/// A heat map of the values that are not `none`.
-LookPicture heat(const std::vector<float>& values, int width_px, int height_px, bool logarithmic, const char* unit) {
+/// A heat map of the values that are not `none`, over another picture.
+LookPicture heat(const std::vector<float>& values, Image8 background, bool logarithmic, const char* unit) {
   std::vector<float> there;
   for (const float v : values)
     if (v != none) there.push_back(v);
   const ColorScale scale = logarithmic ? log_scale_of(std::move(there)) : scale_of(std::move(there));
-  LookPicture look{blank(width_px, height_px), with_unit(scale.low, unit), with_unit(scale.high, unit)};
+  LookPicture look{std::move(background), with_unit(scale.low, unit), with_unit(scale.high, unit)};
   for (size_t i = 0; i < values.size(); ++i)
     if (values[i] != none) put(look.picture, i, scale.color(values[i]));
   return look;
 }
 
-/// value(i) of each receiver.
+/// The surfaces, so dark that colours of the scale stand out.
+Image8 grey_picture(const Snapshot& s) {
+  Image8 picture = blank(s.width_px, s.height_px);
+  for (size_t i = 0; i < s.size(); ++i)
+    if (s.gbuffer.eye_distance[i] > 0.0f) put(picture, i, dimmed({255, 255, 255}, 0.7f * dim_grey(s, i)));
+  return picture;
+}
+
+/// A heat map of value(i) of each receiver.
 template <typename Value>
-std::vector<float> of_receivers(const Snapshot& s, Value&& value) {
+LookPicture of_receivers(const Snapshot& s, bool logarithmic, const char* unit, Value&& value) {
   std::vector<float> values(s.size(), none);
   for (size_t i = 0; i < values.size(); ++i)
     if (class_of(s, i) == shared::class_receiver) values[i] = value(i);
-  return values;
+  return heat(values, grey_picture(s), logarithmic, unit);
 }
 
 /// value(texel of all layers) of each texel of one layer that is in use, last row first.
@@ -42,7 +50,7 @@ LookPicture of_texels(const Snapshot& s, int layer, bool logarithmic, const char
   std::vector<float> values;
   for (int y = izb.grid - 1; y >= 0; --y)
     for (int x = 0; x < izb.grid; ++x) values.push_back(x < side && y < side ? value(izb.texel({x, y}, layer)) : none);
-  LookPicture look = heat(values, izb.grid, izb.grid, logarithmic, unit);
+  LookPicture look = heat(values, blank(izb.grid, izb.grid), logarithmic, unit);
   for (int y = 0; y < izb.grid; ++y)
     for (int x = 0; x < izb.grid; ++x)
       if (x >= side || izb.grid - 1 - y >= side)
@@ -68,7 +76,7 @@ float cross(const glm::vec2& a, const glm::vec2& b) {
 
 // Long over short axis of the parallelogram that the micro-quad nearly is: the singular values of its sides.
 LookPicture elongation(const Snapshot& s, int) {
-  const std::vector<float> values = of_receivers(s, [&](size_t i) {
+  return of_receivers(s, true, ": 1", [&](size_t i) {
     const shared::QuadOnGrid q = quad_on_grid(s, i);
     const glm::dvec2 along_x = 0.5 * glm::dvec2(q.corner1 - q.corner0 + q.corner2 - q.corner3);
     const glm::dvec2 along_y = 0.5 * glm::dvec2(q.corner3 - q.corner0 + q.corner2 - q.corner1);
@@ -78,30 +86,28 @@ LookPicture elongation(const Snapshot& s, int) {
     const double root = std::sqrt(std::max(sum * sum - 4.0 * area * area, 0.0));
     return static_cast<float>(sum + root < 2.0 * area * most ? (sum + root) / (2.0 * area) : most);
   });
-  return heat(values, s.width_px, s.height_px, true, ": 1");
 }
 
 LookPicture footprint(const Snapshot& s, int) {
-  const std::vector<float> values = of_receivers(s, [&](size_t i) {
+  return of_receivers(s, true, "texels", [&](size_t i) {
     const shared::QuadOnGrid q = quad_on_grid(s, i);
     const float area = 0.5f * std::abs(cross(glm::vec2(q.corner2 - q.corner0), glm::vec2(q.corner3 - q.corner1)));
     return std::max(area, 1e-6f);
   });
-  return heat(values, s.width_px, s.height_px, true, "texels");
 }
 
 LookPicture list_length(const Snapshot& s, int) {
-  return heat(of_receivers(s, [&](size_t i) { return s.list_length[i]; }), s.width_px, s.height_px, false, "nodes");
+  return of_receivers(s, false, "nodes", [&](size_t i) { return s.list_length[i]; });
 }
 
 LookPicture tests(const Snapshot& s, int) {
-  return heat(of_receivers(s, [&](size_t i) { return s.tests[i]; }), s.width_px, s.height_px, false, "tests");
+  return of_receivers(s, false, "tests", [&](size_t i) { return s.tests[i]; });
 }
 
 LookPicture removed(const Snapshot& s, int) {
   const std::vector<uint32_t> built = nodes_of_pixels(s, *s.built), left = nodes_of_pixels(s, *s.left);
   const ColorScale percent{0.0f, 100.0f, false};
-  LookPicture look{blank(s.width_px, s.height_px), "0 %", "100 %"};
+  LookPicture look{grey_picture(s), "0 %", "100 %"};
   for (size_t i = 0; i < s.size(); ++i)
     if (built[i] != 0) put(look.picture, i, percent.color(100.0f * (1.0f - float(left[i]) / float(built[i]))));
   return look;
@@ -114,12 +120,15 @@ LookPicture grid_lists(const Snapshot& s, int layer) {
   });
 }
 
-// Depths of receivers lie in [1/4, 3/4] of the layer's range.
+// Depths of receivers lie in [1/4, 3/4].
 LookPicture grid_zcull(const Snapshot& s, int layer) {
-  return of_texels(s, layer, false, "of the depth range", [&](size_t texel) {
+  LookPicture look = of_texels(s, layer, false, "", [&](size_t texel) {
     const float furthest = s.built->furthest[texel];
     return furthest > 0.0f ? std::clamp(2.0f * furthest - 0.5f, 0.0f, 1.0f) : none;
   });
+  look.low = "nearest to the light";
+  look.high = "furthest from it";
+  return look;
 }
 
 LookPicture grid_fragments(const Snapshot& s, int layer) {
