@@ -54,10 +54,14 @@ TEST(ViewProbe, AnOccludersLinesAndBitsAreThoseOfItsShadow) {
   EXPECT_NEAR(line.x, 0.1, 1e-6);
   EXPECT_NEAR(line.z, 0.0, 1e-9);
   EXPECT_GT(o.lines[0].x, 0.0);
-  // It lies 5 m above the whole pixel.
-  const double height = o.lines[3].x / (1000.0 * 2000.0);
-  EXPECT_NEAR(height, 5.0, 0.001);
-  EXPECT_NEAR(o.lines[3].y / o.lines[3].x, 0.0, 1e-9);
+  // It lies 5 m above the whole pixel, less the bias.
+  const glm::dvec3 a(triangles[0]), b(triangles[1]), c(triangles[2]);
+  const glm::vec2 bias = shared::quad_bias(s.camera, glm::vec3(1.5f, 1.5f, -10.0f), 10.0f,
+                                           shared::max_norm1(triangles[0], triangles[1], triangles[2]),
+                                           shared::doubt_of(s.camera, s.gbuffer.micro_quad[0]));
+  EXPECT_NEAR(o.lines[3].x / glm::length(glm::cross(b - a, c - a)), 5.0 - double(bias.y), 1e-9);
+  EXPECT_GT(bias.y, 1e-6f);
+  EXPECT_EQ(o.lines[3].y, 0.0);
 }
 
 TEST(ViewProbe, CountsWhoHidesAndWhoAloneDecides) {

@@ -33,6 +33,16 @@ Shot shoot(const Scene& scene, const Camera& eye, const std::vector<Light>& ligh
   return {take_snapshot(renderer, *technique, eye, lights.size() - 1, needs), renderer.inputs().triangles_vs()};
 }
 
+/// The samples inside an occluder's lines.
+uint32_t bits_within(const Snapshot& s, const std::array<glm::dvec3, 4>& lines) {
+  uint32_t bits = 0;
+  for (size_t n = 0; n < s.samples.offsets_px.size(); ++n)
+    if (std::all_of(lines.begin(), lines.end(),
+                    [&](const glm::dvec3& line) { return shared::plane_at(line, s.samples.offsets_px[n]) >= 0.0; }))
+      bits |= 1u << n;
+  return bits;
+}
+
 /// How many pixels are partly hidden.
 size_t expect_probes_are_the_mask(const Shot& shot) {
   const Snapshot& s = shot.snapshot;
@@ -43,7 +53,12 @@ size_t expect_probes_are_the_mask(const Shot& shot) {
       EXPECT_EQ(p.hidden, s.mask[s.index({x, y})]) << x << " " << y;
       EXPECT_EQ(p.mask, s.mask[s.index({x, y})]);
       uint32_t listed = 0;
-      for (const Occluder& o : p.occluders) listed |= o.bits;
+      for (const Occluder& o : p.occluders) {
+        listed |= o.bits;
+        if (s.samples.count() > 1) {
+          EXPECT_EQ(bits_within(s, o.lines), o.bits) << x << " " << y;
+        }
+      }
       EXPECT_TRUE(listed == p.hidden || p.counts[0] > most_occluders);
       partly += p.hidden != 0u && p.hidden != ~0u;
     }
