@@ -72,7 +72,7 @@ int levels_of(const Texture& t) {
 /// million that was 2 GB. Where that counts, drawing waits for what was drawn two steps before.
 class Throttle {
  public:
-  explicit Throttle(bool active) : active_(active) {}
+  Throttle(bool active, uint64_t step_triangles) : active_(active), step_triangles_(step_triangles) {}
   ~Throttle() {
     for (const GLsync fence : fences_)
       if (fence) glDeleteSync(fence);
@@ -82,7 +82,7 @@ class Throttle {
 
   void drawn(uint64_t triangles) {
     waiting_ += triangles;
-    if (!active_ || waiting_ < step_triangles) return;
+    if (!active_ || waiting_ < step_triangles_) return;
     waiting_ = 0;
     if (fences_[0]) {
       glClientWaitSync(fences_[0], GL_SYNC_FLUSH_COMMANDS_BIT, GL_TIMEOUT_IGNORED);
@@ -94,9 +94,8 @@ class Throttle {
   }
 
  private:
-  static constexpr uint64_t step_triangles = largest_part_triangles;
-
   const bool active_;
+  const uint64_t step_triangles_;
   uint64_t waiting_ = 0;
   GLsync fences_[2] = {nullptr, nullptr};
 };
@@ -197,7 +196,7 @@ void SceneBuffers::draw(Drawn drawn, bool with_textures) const {
   bind_storage();
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
-  Throttle throttle(throttled_);
+  Throttle throttle(throttled_, between_draws ? 1 : largest_part_triangles);
   const auto draw_commands = [](uint32_t first, uint32_t count) {
     glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
                                 reinterpret_cast<const void*>(uintptr_t(first) * sizeof(DrawCommand)),
@@ -217,6 +216,7 @@ void SceneBuffers::draw(Drawn drawn, bool with_textures) const {
     }
     draw_commands(group.first_command, group.command_count);
     throttle.drawn(group.triangle_count);
+    if (between_draws) between_draws();
   }
   if (with_textures) glBindSampler(UNIT_BASE_COLOR, 0);
 }

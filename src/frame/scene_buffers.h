@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A scene on the GPU: joined vertex and index buffers, textures, and the draw calls over them.
 #pragma once
+#include <functional>
+
 #include "frame/deform.h"
 #include "frame/frame_setup.h"
 #include "gpu/capabilities.h"
@@ -33,6 +35,9 @@ class SceneBuffers {
   void bind_storage() const;
 
   const GeometryWindows& windows() const { return windows_; }
+
+  /// If set, called after each part that a software renderer has drawn; what it throws gives up the frame.
+  std::function<void()> between_draws;
 
   size_t bytes() const;
   /// What bytes() will be.

@@ -12,6 +12,12 @@ namespace izb {
 
 namespace {
 
+/// What is drawn in its scope is drawn only if samples passed in the query. A draw may throw: see between_draws.
+struct WhereSamplesPassed {
+  explicit WhereSamplesPassed(const gpu::Query& query) { glBeginConditionalRender(query.name(), GL_QUERY_WAIT); }
+  ~WhereSamplesPassed() { glEndConditionalRender(); }
+};
+
 LightKind light_kind(const shared::LightFrame& light) {
   if (!shared::is_positional(light)) return LightKind::directional;
   return light.grid.z > 1 ? LightKind::cube : LightKind::positional;
@@ -273,9 +279,10 @@ void Izb::visibility(const FrameInputs& in, Visibility& out, const Pass& pass) {
   programs_[IzbProgram::overflow].use();
   glDrawArrays(GL_POINTS, 0, 1);
   glEndQuery(GL_ANY_SAMPLES_PASSED);
-  glBeginConditionalRender(overflow_.name(), GL_QUERY_WAIT);
-  draw(in, {IzbProgram::visibility_in_double, pass.culled});
-  glEndConditionalRender();
+  {
+    const WhereSamplesPassed overflowed(overflow_);
+    draw(in, {IzbProgram::visibility_in_double, pass.culled});
+  }
 
   glDisable(GL_DEPTH_CLAMP);
   glDepthMask(GL_TRUE);
