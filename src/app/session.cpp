@@ -32,13 +32,22 @@ std::unique_ptr<Technique> technique_of(const std::vector<std::string>& argument
   return technique;
 }
 
+void copy_options(Technique& from, Technique& to) {
+  const OptionSet given = from.options(), taken = to.options();
+  for (size_t i = 0; i < taken.options().size(); ++i)
+    std::visit([&](auto* value) { *value = *std::get<decltype(value)>(given.options()[i].value); },
+               taken.options()[i].value);
+}
+
 std::unique_ptr<Technique> another(Technique& technique) {
   std::unique_ptr<Technique> copy = make_technique(technique.info().name);
-  const OptionSet from = technique.options(), to = copy->options();
-  for (size_t i = 0; i < to.options().size(); ++i)
-    std::visit([&](auto* value) { *value = *std::get<decltype(value)>(from.options()[i].value); },
-               to.options()[i].value);
+  copy_options(technique, *copy);
   return copy;
+}
+
+bool animates(const FrameOptions& options, const Scene& scene) {
+  if (!options.plays()) return false;
+  return !options.animation.empty() || options.camera_path.empty() || !scene.animations.empty();
 }
 
 namespace {
@@ -52,12 +61,6 @@ Scene load_with_progress(const std::string& path, bool plays) {
     progress.advance(now - done);
     done = now;
   });
-}
-
-/// What plays: a camera path alone may have moments, too.
-bool animates(const FrameOptions& options, const Scene& scene) {
-  if (!options.plays()) return false;
-  return !options.animation.empty() || options.camera_path.empty() || !scene.animations.empty();
 }
 
 }  // namespace

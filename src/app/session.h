@@ -10,6 +10,12 @@ namespace izb {
 /// The technique named on the command line, made before parsing so that its options can be parsed too.
 std::unique_ptr<Technique> technique_of(const std::vector<std::string>& arguments);
 
+/// Whether the scene's animations move it: a camera path alone may have moments, too.
+bool animates(const FrameOptions& options, const Scene& scene);
+
+/// Gives `to`, a technique of the same name, the values that the options of `from` have.
+void copy_options(Technique& from, Technique& to);
+
 /// Another of the same name, whose options have the same values.
 std::unique_ptr<Technique> another(Technique& technique);
 

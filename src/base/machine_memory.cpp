@@ -73,6 +73,11 @@ std::optional<uint64_t> available_main_memory(const fs::path& root) {
   return least;
 }
 
+std::optional<uint64_t> process_memory() {
+  const auto kilobytes = number_after("/proc/self/status", "VmRSS:");
+  return kilobytes ? std::optional(*kilobytes * 1024) : std::nullopt;
+}
+
 std::optional<uint64_t> peak_process_memory() {
   const auto kilobytes = number_after("/proc/self/status", "VmHWM:");
   return kilobytes ? std::optional(*kilobytes * 1024) : std::nullopt;

@@ -11,6 +11,9 @@ namespace izb {
 /// where the system does not say. `root`: where /proc and /sys are looked for, for tests.
 std::optional<uint64_t> available_main_memory(const std::filesystem::path& root = "/");
 
+/// What this process holds now, in bytes; nothing where the system does not say.
+std::optional<uint64_t> process_memory();
+
 /// The most that this process has held so far, in bytes; nothing where the system does not say.
 std::optional<uint64_t> peak_process_memory();
 

@@ -44,6 +44,11 @@ Snapshot take_snapshot(Renderer& renderer, Technique& technique, const Camera& c
   if ((needs & (Need::albedo | Need::shading_normal)) != 0) read_surfaces(s, *in.gbuffer, needs);
   if ((needs & Need::mask) != 0) s.mask = renderer.read_mask(light);
 
+  if ((needs & Need::tests) != 0)
+    if (std::vector<float> tests = renderer.tests_a_pixel(light); !tests.empty())
+      s.tests = flip_rows(std::move(tests), s.width_px, s.height_px);
+  if ((needs & Need::fragments) != 0) s.fragments = renderer.fragments_a_texel(light);
+
   constexpr unsigned of_lists = Need::list_length | Need::built | Need::furthest | Need::left;
   const bool lists = (needs & of_lists) != 0;
   // Also puts back what the light's own frame had bound and built, where another light's came after it.
