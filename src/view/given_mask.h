@@ -11,7 +11,7 @@ class GivenMask final : public Technique {
  public:
   /// `samples` are those of the masks to come.
   explicit GivenMask(SamplePattern samples) : samples_(std::move(samples)) {}
-  /// Of each light, top row first; none: nothing is shadowed yet.
+  /// Of each light of the frames to come, top row first; none: nothing is shadowed yet.
   void give(std::vector<std::vector<uint32_t>> masks) { masks_ = std::move(masks); }
 
   TechniqueInfo info() const override {

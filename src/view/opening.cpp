@@ -27,30 +27,33 @@ std::vector<std::string> labels_of(const std::vector<T>& objects) {
   return labels;
 }
 
-/// With what choose_frame() chose in words of its own.
-FrameOptions explicit_frame(const FrameOptions& asked, const Scene& scene, const FrameChoice& choice,
-                            const glm::dvec3& center_ws) {
+/// What the batch program takes where nothing is asked for, by name.
+FrameOptions by_name(const FrameOptions& asked, const Scene& scene) {
   FrameOptions frame = asked;
-  if (asked.eye.empty() && asked.camera.empty() && asked.camera_path.empty()) {
-    if (asked.viewpoint.empty() && !scene.cameras.empty())
-      frame.camera = label_of(scene.cameras, 0);
-    else
-      CameraPose::of(choice.camera, glm::distance(glm::dvec3(choice.camera.world_from_view[3]), center_ws))
-          .put_into(frame);
-  }
-  if (asked.light.empty() && asked.sun.empty() && asked.spot.empty() && asked.point.empty()) {
-    const Light& chosen = choice.lights.front();
-    const auto same = std::find_if(scene.lights.begin(), scene.lights.end(),
-                                   [&](const Light& l) { return l.name == chosen.name && l.type == chosen.type; });
-    if (same != scene.lights.end()) {
-      frame.light = label_of(scene.lights, size_t(same - scene.lights.begin()));
-    } else {
-      frame.sun = "0,0";
-      put_light(frame, choice.lights, 0, chosen);
-    }
-  }
-  frame.viewpoint.clear();
+  const bool no_camera = asked.eye.empty() && asked.camera.empty() && asked.camera_path.empty();
+  const bool no_light = asked.light.empty() && asked.sun.empty() && asked.spot.empty() && asked.point.empty();
+  if (!asked.viewpoint.empty()) return frame;
+  if (no_camera && !scene.cameras.empty()) frame.camera = label_of(scene.cameras, 0);
+  if (no_light && !scene.lights.empty()) frame.light = label_of(scene.lights, 0);
   return frame;
+}
+
+/// The rest by numbers, as it was chosen.
+void by_numbers(FrameOptions& frame, const FrameChoice& choice, const Scene& scene, const glm::dvec3& center_ws) {
+  if (frame.eye.empty() && frame.camera.empty() && frame.camera_path.empty())
+    CameraPose::of(choice.camera, glm::distance(glm::dvec3(choice.camera.world_from_view[3]), center_ws))
+        .put_into(frame);
+  frame.viewpoint.clear();
+  if (!frame.light.empty() || !frame.sun.empty() || !frame.spot.empty() || !frame.point.empty()) return;
+  const Light& chosen = choice.lights.front();
+  const auto same = std::find_if(scene.lights.begin(), scene.lights.end(),
+                                 [&](const Light& l) { return l.name == chosen.name && l.type == chosen.type; });
+  if (same != scene.lights.end()) {
+    frame.light = label_of(scene.lights, size_t(same - scene.lights.begin()));
+  } else {
+    frame.sun = "0,0";
+    put_light(frame, choice.lights, 0, chosen);
+  }
 }
 
 }  // namespace
@@ -75,7 +78,8 @@ SceneFacts facts_of(const std::string& file, const Scene& scene, Poser& poser, c
   facts.center_ws = bounds.center();
   facts.radius_ws = bounds.radius() > 0.0 ? bounds.radius() : 1.0;
   facts.ignored = scene.ignored;
-  facts.frame = explicit_frame(asked, scene, choose_frame(asked, scene), facts.center_ws);
+  facts.frame = by_name(asked, scene);
+  by_numbers(facts.frame, choose_frame(facts.frame, scene), scene, facts.center_ws);
   return facts;
 }
 

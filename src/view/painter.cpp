@@ -25,6 +25,11 @@ constexpr uint32_t slow_part_triangles = 8192;
 constexpr double motion_scales[] = {1.0, 0.75, 0.5, 1.0 / 3.0, 0.25, 1.0 / 6.0, 0.125};
 constexpr double longest_motion_ms = 150.0;
 
+/// A layer that the grid has; the state may still name one of more cascades.
+int layer_for(const Look& look, const Snapshot& snapshot, int layer) {
+  return look.of_grid && snapshot.built ? std::clamp(layer, 0, snapshot.built->layers - 1) : 0;
+}
+
 Size scaled(Size full, double scale) {
   const auto side = [&](int px) { return std::max(1, static_cast<int>(std::lround(px * scale))); };
   return {side(full.width_px), side(full.height_px)};
@@ -245,6 +250,7 @@ void Painter::do_load(const std::string& file, const FrameOptions& asked) {
     auto facts = std::make_shared<SceneFacts>(facts_of(file, opened->scene, opened->poser, asked));
     truth_.cancel();
     tracing_ = false;
+    traced_serial_ = 0;
     for (Side& side : sides_) side.forget();
     truth_side_.forget();
     truth_key_.clear();
@@ -364,7 +370,8 @@ void Painter::add_looks(Frame& frame, const Request& request, int light) {
   frame.light_space = frozen_ ? frozen_ : frame.snapshot;
   if (!look) return;
   const Snapshot& of = look->of_grid ? *frame.light_space : *snapshot;
-  if ((look->needs & ~available(of)) == 0) frame.look = izb::paint(*look, of, request.state.layer);
+  if ((look->needs & ~available(of)) == 0)
+    frame.look = izb::paint(*look, of, layer_for(*look, of, request.state.layer));
 }
 
 // Lit in the active side alone: orange; in the other alone: blue; over the picture, dimmed.
@@ -403,7 +410,7 @@ void Painter::start_truth(const Request& request) {
   truth_key_ = key;
   shown_truth_ = {};
   TruthTask task;
-  task.serial = request.serial;
+  task.serial = traced_serial_ = request.serial;
   const Renderer& renderer = side.renderer();
   task.triangles = make_triangles(renderer.inputs());
   const GBufferImage gbuffer = read_gbuffer(*renderer.inputs().gbuffer);
@@ -420,8 +427,10 @@ void Painter::show_truth() {
   {
     const std::scoped_lock lock(mutex_);
     if (traced_) {
-      shown_truth_ = std::move(*traced_);
+      const bool is_ours = traced_->serial == traced_serial_;  // one that was given up may just have been finished
+      if (is_ours) shown_truth_ = std::move(*traced_);
       traced_.reset();
+      if (!is_ours) return;
       tracing_ = false;
     }
   }
@@ -443,7 +452,7 @@ void Painter::show_truth() {
     snapshot->truth = shown_truth_.masks[static_cast<size_t>(light)];
     const Look* look = frame->state.look.empty() ? nullptr : find_look(frame->state.look);
     if (look && !look->of_grid && (look->needs & ~available(*snapshot)) == 0)
-      frame->look = izb::paint(*look, *snapshot, frame->state.layer);
+      frame->look = izb::paint(*look, *snapshot);
     frame->snapshot = std::move(snapshot);
   }
   last_ = std::make_shared<Frame>(*frame);

@@ -107,7 +107,8 @@ class Painter {
   std::atomic<bool> tracing_ = false;
   std::optional<TracedTruth> traced_;  ///< guarded
   TracedTruth shown_truth_;
-  std::string truth_key_;  ///< of what is or was traced
+  std::string truth_key_;       ///< of what is or was traced
+  uint64_t traced_serial_ = 0;  ///< likewise
 
   mutable std::mutex mutex_;
   std::condition_variable work_;

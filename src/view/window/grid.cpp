@@ -8,11 +8,35 @@
 
 namespace izb {
 
+namespace {
+
+struct TexelSquare {
+  int x, y, side;  ///< lower left texel, and how many
+};
+
+/// The square around all texels that have a list, with a margin: with few receivers most of the grid is not used.
+TexelSquare used_square(const IzbInternals& built, int layer) {
+  glm::ivec2 low(built.grid), high(-1);
+  for (int y = 0; y < built.grid; ++y)
+    for (int x = 0; x < built.grid; ++x)
+      if (!built.lists[built.texel({x, y}, layer)].empty()) {
+        low = glm::min(low, glm::ivec2(x, y));
+        high = glm::max(high, glm::ivec2(x, y));
+      }
+  if (high.x < 0) return {0, 0, built.grid};
+  const int extent = std::max(high.x - low.x, high.y - low.y) + 1;
+  const int side = std::min(extent + extent / 16 + 2, built.grid);
+  const glm::ivec2 corner = glm::clamp((low + high - side) / 2, glm::ivec2(0), glm::ivec2(built.grid - side));
+  return {corner.x, corner.y, side};
+}
+
+}  // namespace
+
 void Ui::draw_grid_window() {
   const Look* look = state_.look.empty() ? nullptr : find_look(state_.look);
   if (!look || !look->of_grid || !facts_) return;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float side = std::min({512.0f * window_.pixel_ratio(), 0.55f * size.x, 0.75f * size.y});
+  const float side = std::min({512.0f * window_.pixel_ratio(), 0.36f * size.x, 0.75f * size.y});
   ImGui::SetNextWindowPos({size.x - side - 32.0f, 36.0f}, ImGuiCond_FirstUseEver);
   bool is_open = true;
   if (ImGui::Begin("Light-space grid", &is_open, ImGuiWindowFlags_AlwaysAutoResize)) {
@@ -22,29 +46,45 @@ void Ui::draw_grid_window() {
     } else {
       const Snapshot& s = *frame_->light_space;
       const int layers = s.built ? s.built->layers : 1;
+      state_.layer = std::clamp(state_.layer, 0, layers - 1);
       ImGui::Text("%s: %s to %s", look->name, frame_->look->low.c_str(), frame_->look->high.c_str());
       if (layers > 1) {
         ImGui::SetNextItemWidth(160.0f);
         ImGui::SliderInt("layer", &state_.layer, 0, layers - 1);
       }
-      const ImVec2 at = ImGui::GetCursorScreenPos();
-      ImGui::Image(look_.id(), {side, side});
-      mark("grid");
       const int texels = look_.picture().width_px;
+      if (grid_shown_ != std::pair(frame_->light_space.get(), state_.layer)) {
+        grid_shown_ = {frame_->light_space.get(), state_.layer};
+        const TexelSquare used = s.built ? used_square(*s.built, state_.layer) : TexelSquare{0, 0, texels};
+        grid_square_ = {used.x, used.y, used.side};
+      }
+      const glm::ivec3 square = grid_square_;
+      const auto uv = [&](int x, int y) {
+        return ImVec2(static_cast<float>(x) / static_cast<float>(texels),
+                      1.0f - static_cast<float>(y) / static_cast<float>(texels));
+      };
+      const ImVec2 at = ImGui::GetCursorScreenPos();
+      ImGui::Image(look_.id(), {side, side}, uv(square.x, square.y + square.z), uv(square.x + square.z, square.y));
+      mark("grid");
+      const bool hovered = ImGui::IsItemHovered();
+      ImGui::TextDisabled("texels %d, %d to %d, %d of %d x %d", square.x, square.y, square.x + square.z - 1,
+                          square.y + square.z - 1, texels, texels);
       ImDrawList* list = ImGui::GetWindowDrawList();
-      const float texel_px = side / static_cast<float>(texels);
+      const float texel_px = side / static_cast<float>(square.z);
       for (const auto& [layer, texel] : lit_texels_) {
         if (layer != state_.layer) continue;
-        const ImVec2 corner(at.x + static_cast<float>(texel.x) * texel_px,
-                            at.y + static_cast<float>(texels - 1 - texel.y) * texel_px);
+        const ImVec2 corner(at.x + static_cast<float>(texel.x - square.x) * texel_px,
+                            at.y + static_cast<float>(square.y + square.z - 1 - texel.y) * texel_px);
         const float reach = std::max(3.0f - texel_px, 0.0f);
         list->AddRect({corner.x - reach, corner.y - reach}, {corner.x + texel_px + reach, corner.y + texel_px + reach},
                       IM_COL32(90, 255, 120, 255));
       }
-      if (ImGui::IsItemHovered()) {
+      if (hovered) {
         const ImVec2 mouse = ImGui::GetIO().MousePos;
-        const glm::ivec2 texel(std::clamp(static_cast<int>((mouse.x - at.x) / texel_px), 0, texels - 1),
-                               texels - 1 - std::clamp(static_cast<int>((mouse.y - at.y) / texel_px), 0, texels - 1));
+        const auto texel_at = [&](float offset) {
+          return std::clamp(static_cast<int>(offset / texel_px), 0, square.z - 1);
+        };
+        const glm::ivec2 texel(square.x + texel_at(mouse.x - at.x), square.y + square.z - 1 - texel_at(mouse.y - at.y));
         if (s.built)
           ImGui::SetTooltip("texel %d, %d: a list of %zu nodes\nclick lights its pixels up", texel.x, texel.y,
                             s.built->lists[s.built->texel(texel, state_.layer)].size());

@@ -27,7 +27,7 @@ constexpr const char* key_table[][2] = {
     {"R", "the ray-traced truth as the other side"},
     {"V, Shift + V", "next, previous view of a stage"},
     {"G", "freeze the light space while the camera moves on"},
-    {"Z", "lens; scroll with it: x2 to x32 (dots are samples from x16)"},
+    {"Z", "lens; scroll with it: x2 to x32 (at x32 dots are samples)"},
     {"Space, comma, full stop", "play or pause; a thirtieth of a second back, on"},
     {"F2", "screenshot: PNG, OpenEXR and JSON"},
     {"F3, F4", "record a camera path or end that; replay it"},
@@ -41,7 +41,7 @@ constexpr const char* hints[] = {
     "Drag to look around, scroll to come nearer. The picture sharpens when you stop.",
     "Hold L and drag: the sun turns, and each shadow edge stays sharp at any distance.",
     "Press C for a split bar between two techniques, R for the ray-traced truth beside them.",
-    "Press Z and scroll: at x16 a lens shows each pixel's 32 samples, lit or in shadow.",
+    "Press Z and scroll: at x32 a lens shows each pixel's 32 samples, lit or in shadow.",
     "Press V to walk through the pipeline: each stage of the irregular z-buffer has a view.",
 };
 

@@ -96,7 +96,7 @@ void Ui::draw_lens() {
   list->AddImage(picture.id(), corner, {corner.x + extent, corner.y + extent}, uv(center.x - reach, center.y - reach),
                  uv(center.x + reach + 1, center.y + reach + 1));
   const auto& side = frame_->sides[static_cast<size_t>(index)];
-  if (state_.lens_power >= 16 && side && frame_->scale == 1.0) {
+  if (state_.lens_power >= 32 && side && frame_->scale == 1.0) {
     for (int y = -reach; y <= reach; ++y)
       for (int x = -reach; x <= reach; ++x)
         draw_samples(*side,
@@ -121,8 +121,12 @@ void Ui::draw_lens() {
 void Ui::draw_pixel_window() {
   if (!state_.picked) return;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float side = std::min(240.0f * window_.pixel_ratio(), 0.22f * size.x);
-  ImGui::SetNextWindowPos({size.x - 2.0f * side - 48.0f, 36.0f}, ImGuiCond_Appearing);
+  const float side = std::min(240.0f * window_.pixel_ratio(), 0.16f * size.x);
+  // Beside the grid's picture, if that is there.
+  const Look* look = find_look(state_.look);
+  const float x =
+      look && look->of_grid ? (panels_ ? 27.0f * ImGui::GetFontSize() : 8.0f) : size.x - 2.0f * side - 48.0f;
+  ImGui::SetNextWindowPos({x, 36.0f}, ImGuiCond_Appearing);
   bool is_open = true;
   const bool shown = ImGui::Begin("Pixel", &is_open, ImGuiWindowFlags_AlwaysAutoResize);
   if (!is_open) state_.picked.reset();

@@ -165,6 +165,8 @@ class Ui {
   std::string reported_state_;
   bool rest_reported_ = false;
   std::map<std::string, std::array<float, 4>> rects_, reported_rects_;
+  std::pair<const Snapshot*, int> grid_shown_{nullptr, -1};  ///< of which grid_square_ is
+  glm::ivec3 grid_square_{0};                                ///< of the grid: lower left texel, side
   double now_s_ = 0.0, last_report_s_ = -1.0, last_watch_s_ = 0.0, last_memory_s_ = 0.0, last_motion_s_ = -10.0;
 
   bool panels_ = true, help_ = false, hints_ = false, counts_ = false, frusta_ = false, show_light_ = false;
