@@ -58,11 +58,7 @@ class Pictures {
   explicit Pictures(const fs::path& folder)
       : folder_(folder),
         home_(fs::temp_directory_path() / ("izb_pictures_" + std::to_string(getpid()))),
-        viewer_(display_,
-                {{IZB_PROGRAM, "view", IZB_GARDEN, "--size", std::to_string(width_px) + "x" + std::to_string(height_px),
-                  "--cascades", "4", "--folder", home_made()},
-                 home_,
-                 {}}) {
+        viewer_(display_, options()) {
     viewer_.wait_at_rest(300.0);
     if (viewer_.has_widget("close hints")) display_.click(viewer_.widget("close hints"));
   }
@@ -89,6 +85,7 @@ class Pictures {
     viewer_.input().key(key);
     viewer_.wait_at_rest(300.0);
   }
+  std::string look() { return viewer_.state().at("look").get<std::string>(); }
   void write(const char* name, const Image8& picture) {
     write_png(folder_ / name, picture);
     std::printf("wrote %s\n", (folder_ / name).c_str());
@@ -115,7 +112,7 @@ class Pictures {
     std::vector<Image8> all;
     for (;;) {
       press("v");
-      if (viewer_.state()["look"] == "") break;
+      if (look().empty()) break;
       all.push_back(smaller(viewer_.still_capture(), 4));
     }
     write("view_stages.png", sheet(all));
@@ -124,7 +121,7 @@ class Pictures {
 
   /// The lists of a pixel, on the grid.
   void light_space() {
-    while (viewer_.state()["look"] != "grid-lists") press("v");
+    while (look() != "grid-lists") press("v");
     viewer_.input().click({480, 560});
     viewer_.wait_for("picked", {}, 300.0);
     viewer_.wait_at_rest(300.0);

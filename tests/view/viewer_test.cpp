@@ -226,6 +226,16 @@ TEST_F(Picture, FrozenListsStayWhileTheCameraMoves) {
   EXPECT_EQ(viewer->last("picture")["sides"][0]["error"], "");
 }
 
+TEST_F(Picture, WhatATechniqueLacksIsSaidInItsPlace) {
+  viewer->stop();
+  viewer = open({"--raster", "hw"});
+  const json lacking = viewer->last("picture")["sides"][0];
+  if (lacking["error"] == "") GTEST_SKIP() << "this driver has conservative rasterisation";
+  EXPECT_NE(lacking["error"].get<std::string>().find("cannot run"), std::string::npos) << lacking;
+  viewer->input().key("p");  // the defaults
+  EXPECT_TRUE(viewer->wait_for("picture", rests_with_spp(32))["sides"][0].contains("mask_hash"));
+}
+
 TEST_F(Picture, HelpAndPanelsComeAndGo) {
   const Image8 picture = viewer->still_capture();
   const std::pair<const char*, const char*> keys[] = {{"F1", "Escape"}, {"F1", "F1"}, {"Tab", "Tab"}};
