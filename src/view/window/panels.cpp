@@ -256,6 +256,12 @@ void Ui::compare_panel() {
 void Ui::stages_panel() {
   if (!ImGui::CollapsingHeader("Stages")) return mark("Stages");
   mark("Stages");
+  ImGui::Checkbox("cascades as frusta", &frusta_);
+  mark("frusta");
+  ImGui::Checkbox("freeze the light space", &state_.frozen);
+  mark("freeze");
+  tooltip("the lists stay as they are while the camera moves on: lists and frusta of the moment, seen from elsewhere");
+  ImGui::Separator();
   if (ImGui::Selectable("the picture", state_.look.empty())) state_.look.clear();
   mark("the picture");
   for (int i = 0; i < static_cast<int>(stage_names.size()); ++i) {
@@ -270,12 +276,6 @@ void Ui::stages_panel() {
       tooltip(look.help);
     }
   }
-  ImGui::Separator();
-  ImGui::Checkbox("cascades as frusta", &frusta_);
-  mark("frusta");
-  ImGui::Checkbox("freeze the light space", &state_.frozen);
-  mark("freeze");
-  tooltip("the lists stay as they are while the camera moves on: lists and frusta of the moment, seen from elsewhere");
 }
 
 void Ui::keep_panel() {
