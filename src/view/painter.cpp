@@ -172,6 +172,9 @@ void Painter::run() {
       say(true, e.what());
     } catch (const std::bad_alloc&) {
       say(true, "not enough memory");
+    } catch (const std::exception& e) {  // a bug: the program goes on, and says so
+      say(true, fmt::format("unexpected failure: {}", e.what()));
+      refined_ = painted_;
     }
     check_gl();
     busy_ = false;
