@@ -234,6 +234,8 @@ TEST_F(Picture, WhatATechniqueLacksIsSaidInItsPlace) {
   EXPECT_NE(lacking["error"].get<std::string>().find("cannot run"), std::string::npos) << lacking;
   viewer->input().key("p");  // the defaults
   EXPECT_TRUE(viewer->wait_for("picture", rests_with_spp(32))["sides"][0].contains("mask_hash"));
+  viewer->stop();  // with its message about the preset, which the next case would see go
+  viewer = nullptr;
 }
 
 TEST_F(Picture, HelpAndPanelsComeAndGo) {
