@@ -163,6 +163,8 @@ void Ui::open(const SceneFacts& facts) {
   for (PictureTexture& picture : side_pictures_) picture.show(nullptr, false);
   playing_ = false;
   replay_start_s_.reset();
+  requested_.clear();  // also where the same is shown again
+  requested_motion_ = false;
   if (state_.picked) pick(*state_.picked);
   report_.write("scene", {{"file", facts.file}, {"triangles", facts.triangles}});
   for (const std::string& sentence : facts.ignored) say(false, sentence);
@@ -222,8 +224,9 @@ void Ui::send_request() {
 }
 
 void Ui::report_changes() {
+  const std::vector<Window::Answer> answers = window_.take_answers();
   if (!report_.on()) return;
-  for (const Window::Answer& answer : window_.take_answers()) {
+  for (const Window::Answer& answer : answers) {
     report_.write("answer", {{"input", answer.input}, {"ms", answer.ms}});
     rest_reported_ = false;
   }
