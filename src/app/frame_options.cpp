@@ -39,11 +39,6 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
   throw UsageError(fmt::format("--{} must be {} numbers with commas between them, not '{}'", option, count, text));
 }
 
-glm::dvec3 parse_vector(const std::string& option, const std::string& text) {
-  const std::vector<double> n = parse_numbers(option, text, 3);
-  return {n[0], n[1], n[2]};
-}
-
 Light parse_sun(const std::string& text) {
   const std::vector<double> n = parse_numbers("sun", text, 2);
   if (n[1] < -90.0 || n[1] > 90.0)
@@ -187,6 +182,11 @@ std::string layer_name(std::string name) {
   return name;
 }
 
+glm::dvec3 parse_vector(const std::string& option, const std::string& text) {
+  const std::vector<double> n = parse_numbers(option, text, 3);
+  return {n[0], n[1], n[2]};
+}
+
 OptionSet FrameOptions::options() {
   OptionSet set;
   set.text("size", size, "WIDTHxHEIGHT", "size of the picture in pixels");
@@ -229,6 +229,11 @@ OptionSet FrameOptions::options() {
 
 bool FrameOptions::plays() const {
   return time_s >= 0.0 || !animation.empty();
+}
+
+Size Size::scaled(double scale) const {
+  const auto side = [&](int px) { return std::max(1, static_cast<int>(std::lround(px * scale))); };
+  return {side(width_px), side(height_px)};
 }
 
 Size parse_size(const std::string& text) {

@@ -40,6 +40,8 @@ std::string layer_name(std::string name);
 
 struct Size {
   int width_px, height_px;
+  /// Rounded, at least 1 x 1.
+  Size scaled(double scale) const;
 };
 
 /// Where a light was put, whatever its node says.
@@ -64,6 +66,9 @@ struct FrameChoice {
 /// Throws izb::UsageError for text that does not parse or options that exclude each other, izb::Error for names that
 /// the scene does not have.
 FrameChoice choose_frame(const FrameOptions& options, const Scene& scene);
+
+/// X,Y,Z of that option. Throws izb::UsageError.
+glm::dvec3 parse_vector(const std::string& option, const std::string& text);
 
 /// WIDTHxHEIGHT. Throws izb::UsageError.
 Size parse_size(const std::string& text);

@@ -38,7 +38,8 @@ class StageTimers {
 
   /// Ends a frame: reads its queries and adds its samples.
   void collect();
-  void clear() { stages_.clear(); }
+  /// Forgets all samples, and what a frame that was given up left uncollected.
+  void clear() { stages_.clear(), pending_.clear(); }
   const std::vector<Stage>& stages() const { return stages_; }
   const char* method() const { return wall_clock_ ? "wall" : "query"; }
   bool wall_clock() const { return wall_clock_; }

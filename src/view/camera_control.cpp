@@ -59,6 +59,10 @@ CameraPose CameraPose::of(const Camera& camera, double focus_distance) {
   return pose;
 }
 
+CameraPose CameraPose::of(const FrameOptions& options) {
+  return {parse_vector("eye", options.eye), parse_vector("target", options.target), options.fov_deg};
+}
+
 glm::dvec3 CameraPose::right() const {
   return glm::normalize(glm::cross(forward(), zenith));
 }
@@ -82,7 +86,8 @@ void CameraPose::move(const glm::dvec3& step) {
 }
 
 void CameraPose::approach(double factor) {
-  eye_ws = target_ws - factor * distance() * forward();
+  const double nearest = 1e-9 * (1.0 + glm::length(target_ws)), farthest = 1e12;
+  eye_ws = target_ws - std::clamp(factor * distance(), nearest, farthest) * forward();
 }
 
 void CameraPose::focus(const glm::dvec3& point_ws) {

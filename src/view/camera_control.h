@@ -18,6 +18,9 @@ struct CameraPose {
   /// perspective one that shows as much at that distance.
   static CameraPose of(const Camera& camera, double focus_distance);
 
+  /// As --eye, --target and --fov say. Throws izb::UsageError.
+  static CameraPose of(const FrameOptions& options);
+
   double distance() const { return glm::length(target_ws - eye_ws); }
   glm::dvec3 forward() const { return (target_ws - eye_ws) / distance(); }
   glm::dvec3 right() const;
@@ -31,7 +34,7 @@ struct CameraPose {
   void look(double azimuth_rad, double elevation_rad);
   /// Moves eye and focus alike: right, up, forward in world units.
   void move(const glm::dvec3& step);
-  /// Scales the distance from the focus.
+  /// Scales the distance from the focus, which stays above what doubles can tell apart there.
   void approach(double factor);
   /// Looks at that point from where the eye stands.
   void focus(const glm::dvec3& point_ws);

@@ -46,8 +46,9 @@ void by_numbers(FrameOptions& frame, const FrameChoice& choice, const Scene& sce
   frame.viewpoint.clear();
   if (!frame.light.empty() || !frame.sun.empty() || !frame.spot.empty() || !frame.point.empty()) return;
   const Light& chosen = choice.lights.front();
-  const auto same = std::find_if(scene.lights.begin(), scene.lights.end(),
-                                 [&](const Light& l) { return l.name == chosen.name && l.type == chosen.type; });
+  const auto same = std::find_if(scene.lights.begin(), scene.lights.end(), [&](const Light& l) {
+    return l.type == chosen.type && l.position_ws == chosen.position_ws && l.direction_ws == chosen.direction_ws;
+  });
   if (same != scene.lights.end()) {
     frame.light = label_of(scene.lights, size_t(same - scene.lights.begin()));
   } else {

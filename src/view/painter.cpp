@@ -2,15 +2,11 @@
 #include "view/painter.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 
 #include "base/error.h"
-#include "gpu/glsl_front_end.h"
 #include "scene/gltf.h"
-#include "shadow/ray_traced/receivers.h"
+#include "view/difference.h"
 #include "view/opening.h"
-#include "view/screenshot.h"
 #include "view/take_snapshot.h"
 
 namespace izb {
@@ -28,20 +24,6 @@ constexpr double longest_motion_ms = 150.0;
 /// A layer that the grid has; the state may still name one of more cascades.
 int layer_for(const Look& look, const Snapshot& snapshot, int layer) {
   return look.of_grid && snapshot.built ? std::clamp(layer, 0, snapshot.built->layers - 1) : 0;
-}
-
-Size scaled(Size full, double scale) {
-  const auto side = [&](int px) { return std::max(1, static_cast<int>(std::lround(px * scale))); };
-  return {side(full.width_px), side(full.height_px)};
-}
-
-/// What the rays of a frame depend on.
-std::string truth_key(const Request& r) {
-  FrameOptions frame = r.state.frame;
-  const nlohmann::json& options = r.state.sides[static_cast<size_t>(r.state.active)].options;
-  return fmt::format("{} {} {}x{} {} {} {}", r.state.scene, frame.options().to_json().dump(), r.size.width_px,
-                     r.size.height_px, options.value("spp", ""), options.value("samples", ""),
-                     options.value("nl-cull", true));
 }
 
 }  // namespace
@@ -95,22 +77,34 @@ void Painter::request(Request request) {
   work_.notify_one();
 }
 
-#define IZB_JOB(call)                        \
-  const std::scoped_lock lock(mutex_);       \
-  jobs_.emplace_back([=, this] { (call); }); \
-  work_.notify_one()
+void Painter::push(Job job) {
+  const std::scoped_lock lock(mutex_);
+  jobs_.push_back(std::move(job));
+  work_.notify_one();
+}
 
 void Painter::load(const std::string& file, const FrameOptions& asked) {
-  IZB_JOB(do_load(file, asked));
+  push([=, this] { do_load(file, asked); });
 }
+
 void Painter::reload_shaders() {
-  IZB_JOB(do_reload());
+  push([this] { do_reload(); });
 }
+
 void Painter::screenshot(const std::string& stem) {
-  IZB_JOB(do_screenshot(stem));
+  push([=, this] { do_screenshot(stem); });
 }
+
 void Painter::probe(const glm::ivec2& px) {
-  IZB_JOB(probe_px_ = px);
+  const std::scoped_lock lock(mutex_);
+  probe_px_ = px;
+  work_.notify_one();
+}
+
+bool Painter::works() const {
+  const std::scoped_lock lock(mutex_);
+  return busy_ || tracing_ || traced_ || loading_ >= 0.0f || !jobs_.empty() || probe_px_ || frame_ || probed_ ||
+         shaders_ || !written_.empty();
 }
 
 template <typename T>
@@ -162,7 +156,7 @@ void Painter::run() {
         show_truth();
       else
         paint_latest();
-      if (probe_px_ && last_ && settled()) probe_now();
+      if (settled()) probe_now();
     } catch (const Interrupted&) {
       // What a draw had enabled. The next frame makes the rest anew.
       glDisable(GL_DEPTH_CLAMP);
@@ -192,14 +186,19 @@ void Painter::wait_for_work() {
   std::unique_lock lock(mutex_);
   work_.wait(lock, [&] {
     if (quit_ || !jobs_.empty() || traced_) return true;
+    if (probe_px_ && is_settled()) return true;
     return latest_ && open_ && (latest_->serial != painted_ || (!latest_->motion && refined_ != painted_));
   });
 }
 
-/// Whether the last request is painted as well as it will be.
+// Whether the last request is painted as well as it will be; the mutex is held.
+bool Painter::is_settled() const {
+  return latest_ && latest_->serial == painted_ && refined_ == painted_;
+}
+
 bool Painter::settled() const {
   const std::scoped_lock lock(mutex_);
-  return latest_ && latest_->serial == painted_ && refined_ == painted_;
+  return is_settled();
 }
 
 bool Painter::interrupted() const {
@@ -257,13 +256,13 @@ void Painter::do_load(const std::string& file, const FrameOptions& asked) {
     for (Side& side : sides_) side.forget();
     truth_side_.forget();
     truth_key_.clear();
-    probe_px_.reset();
     pose_.reset();
     frozen_.reset();
     last_.reset();
     open_ = std::move(opened);
     const std::scoped_lock lock(mutex_);
     latest_.reset();  // of the scene before
+    probe_px_.reset();
     painted_ = refined_ = 0;
     facts_ = std::move(facts);
   } catch (...) {
@@ -323,7 +322,7 @@ void Painter::paint(const Request& request, double scale, bool at_rest) {
   const size_t active = static_cast<size_t>(request.state.active), other = 1 - active;
   int light = 0;
   try {
-    const FrameChoice choice = choose(request.state, scaled(request.size, scale));
+    const FrameChoice choice = choose(request.state, request.size.scaled(scale));
     frame->camera = choice.camera;
     frame->lights = choice.lights;
     light = std::clamp(request.state.active_light, 0, static_cast<int>(choice.lights.size()) - 1);
@@ -338,9 +337,15 @@ void Painter::paint(const Request& request, double scale, bool at_rest) {
   if (!at_rest && slow()) adapt_scale(scale, *frame);
   add_difference(*frame);
   if (at_rest) {
-    add_looks(*frame, request, light);
-    if (request.counts && sides_[active].ready() && frame->sides[active]->error.empty())
-      frame->sides[active]->counts = sides_[active].renderer().count(static_cast<size_t>(light));
+    try {
+      add_looks(*frame, request, light);
+      if (request.counts && sides_[active].ready() && frame->sides[active]->error.empty())
+        frame->sides[active]->counts = sides_[active].renderer().count(static_cast<size_t>(light));
+    } catch (const Error& e) {  // the picture itself is there
+      say(true, e.what());
+    } catch (const std::bad_alloc&) {
+      say(true, "not enough memory for this view");
+    }
     last_ = std::make_shared<Frame>(*frame);
     last_request_ = request;
   }
@@ -377,152 +382,11 @@ void Painter::add_looks(Frame& frame, const Request& request, int light) {
     frame.look = izb::paint(*look, of, layer_for(*look, of, request.state.layer));
 }
 
-// Lit in the active side alone: orange; in the other alone: blue; over the picture, dimmed.
 void Painter::add_difference(Frame& frame) {
   const auto &a = frame.sides[static_cast<size_t>(frame.state.active)],
              &b = frame.sides[static_cast<size_t>(frame.state.other())];
   if (frame.state.compare != Compare::difference || !a || !b || !a->picture || !b->picture) return;
-  if (a->mask.size() != b->mask.size()) return;
-  auto image = std::make_shared<Image8>(*a->picture);
-  for (size_t i = 0; i < a->mask.size(); ++i) {
-    uint8_t* px = &image->pixels[4 * i];
-    const int grey = (px[0] * 54 + px[1] * 183 + px[2] * 19) / 1024;
-    const int difference = std::popcount(b->mask[i]) - std::popcount(a->mask[i]);
-    // Already one sample must be seen.
-    const int strength = difference == 0 ? 0 : 80 + 175 * std::abs(difference) / 32;
-    px[0] = static_cast<uint8_t>(difference > 0 ? std::max(grey, strength) : grey);
-    px[1] = static_cast<uint8_t>(difference != 0 ? std::max(grey, strength / 2) : grey);
-    px[2] = static_cast<uint8_t>(difference < 0 ? std::max(grey, strength) : grey);
-  }
-  frame.difference = std::move(image);
-}
-
-// ---- the ray-traced truth ----------------------------------------------------------------------------------------
-
-bool Painter::wants_truth(const Request& request) const {
-  const Look* look = request.state.look.empty() ? nullptr : find_look(request.state.look);
-  return request.state.truth || (look && (look->needs & Need::truth));
-}
-
-void Painter::start_truth(const Request& request) {
-  Side& side = sides_[static_cast<size_t>(request.state.active)];
-  if (!side.ready()) return;
-  const std::string key = truth_key(request);
-  if (key == truth_key_ && !shown_truth_.masks.empty()) return show_truth();
-  if (key == truth_key_ && tracing_) return;
-  truth_key_ = key;
-  shown_truth_ = {};
-  TruthTask task;
-  task.serial = traced_serial_ = request.serial;
-  const Renderer& renderer = side.renderer();
-  task.triangles = make_triangles(renderer.inputs());
-  const GBufferImage gbuffer = read_gbuffer(*renderer.inputs().gbuffer);
-  for (size_t i = 0; i < renderer.light_count(); ++i) {
-    task.receivers.push_back(make_receivers(gbuffer, renderer.inputs(i)));
-    task.lights.push_back(make_light_point(renderer.inputs(i).light));
-  }
-  tracing_ = true;
-  truth_.start(std::move(task));
-}
-
-// The frame that was published last, with the truth beside it.
-void Painter::show_truth() {
-  {
-    const std::scoped_lock lock(mutex_);
-    if (traced_) {
-      const bool is_ours = traced_->serial == traced_serial_;  // one that was given up may just have been finished
-      if (is_ours) shown_truth_ = std::move(*traced_);
-      traced_.reset();
-      if (!is_ours) return;
-      tracing_ = false;
-    }
-  }
-  if (!shown_truth_.error.empty()) {
-    say(true, shown_truth_.error);
-    shown_truth_.error.clear();
-    return;
-  }
-  if (!last_ || !open_ || shown_truth_.masks.empty() || truth_key(last_request_) != truth_key_) return;
-  auto frame = std::make_shared<Frame>(*last_);
-  const int light = std::clamp(frame->state.active_light, 0, static_cast<int>(shown_truth_.masks.size()) - 1);
-  const Side& active = sides_[static_cast<size_t>(frame->state.active)];
-  if (frame->state.truth && active.ready())
-    frame->sides[static_cast<size_t>(frame->state.other())] = truth_side_.paint_given(
-        stage(), frame->snapshot->samples, shown_truth_.masks, choose(frame->state, frame->full), light);
-  add_difference(*frame);
-  if (frame->snapshot) {
-    auto snapshot = std::make_shared<Snapshot>(*frame->snapshot);
-    snapshot->truth = shown_truth_.masks[static_cast<size_t>(light)];
-    const Look* look = frame->state.look.empty() ? nullptr : find_look(frame->state.look);
-    if (look && !look->of_grid && (look->needs & ~available(*snapshot)) == 0)
-      frame->look = izb::paint(*look, *snapshot);
-    frame->snapshot = std::move(snapshot);
-  }
-  last_ = std::make_shared<Frame>(*frame);
-  publish(std::move(frame));
-}
-
-// ---- what a person asks for once ---------------------------------------------------------------------------------
-
-void Painter::probe_now() {
-  const glm::ivec2 px = *probe_px_;
-  probe_px_.reset();
-  Side& side = sides_[static_cast<size_t>(last_->state.active)];
-  ProbedPixel probed{};
-  probed.px = px;
-  const Snapshot* snapshot = last_->snapshot.get();
-  if (snapshot && side.ready() && px.x >= 0 && px.y >= 0 && px.x < snapshot->width_px && px.y < snapshot->height_px) {
-    const int light = std::clamp(last_->state.active_light, 0, static_cast<int>(side.renderer().light_count()) - 1);
-    probed = izb::probe(*snapshot, side.renderer().inputs(static_cast<size_t>(light)).triangles_vs(), px);
-  }
-  const std::scoped_lock lock(mutex_);
-  probed_ = std::move(probed);
-}
-
-// New programs are made beside the old ones, which go on if they cannot be.
-void Painter::do_reload() {
-  Request request;
-  {
-    const std::scoped_lock lock(mutex_);
-    if (latest_) request = *latest_;
-  }
-  ShaderFlag flag{ShaderFlag::green, "read again"};
-  if (open_ && request.serial != 0) {
-    const FrameChoice choice = choose(request.state, scaled(request.size, slow() ? motion_scale_ : 1.0));
-    std::array<Side, 2> fresh;
-    for (size_t i = 0; i < 2 && flag.color == ShaderFlag::green; ++i) {
-      if (!sides_[i].ready()) continue;
-      if (request.state.truth && static_cast<int>(i) != request.state.active) continue;
-      const SidePicture tried = fresh[i].paint(stage(), request.state.sides[i], choice, 0, false);
-      if (!tried.error.empty()) flag = {ShaderFlag::red, tried.error};
-    }
-    if (flag.color == ShaderFlag::green) {
-      sides_ = std::move(fresh);
-      truth_side_.forget();
-      painted_ = refined_ = 0;
-    }
-  }
-  const std::scoped_lock lock(mutex_);
-  shaders_ = std::move(flag);
-}
-
-void Painter::do_screenshot(const std::string& stem) {
-  Request request;
-  {
-    const std::scoped_lock lock(mutex_);
-    if (!latest_) return;
-    request = *latest_;
-  }
-  request.motion = false;
-  if (refined_ != request.serial || painted_ != request.serial) paint(request, 1.0, true);
-  painted_ = refined_ = request.serial;
-  Side& side = sides_[static_cast<size_t>(request.state.active)];
-  if (!side.ready()) fail("there is no picture to keep");
-  const FrameChoice frame = choose(request.state, request.size);
-  std::vector<std::string> files =
-      write_screenshot(stem, request, {open_->scene, frame, *gl_, side.renderer(), side.technique(), side.timers()});
-  const std::scoped_lock lock(mutex_);
-  written_.push_back(std::move(files));
+  frame.difference = std::make_shared<const Image8>(difference_picture(*a->picture, a->mask, b->mask));
 }
 
 }  // namespace izb

@@ -54,6 +54,8 @@ class Painter {
   float loading() const { return loading_; }  ///< share, or negative: nothing is loaded
   float tracing() const { return tracing_ ? truth_.progress() : -1.0f; }
   bool busy() const { return busy_; }
+  /// Whether something is asked for that has not been taken yet, or is being made.
+  bool works() const;
 
  private:
   /// A scene that is open.
@@ -65,20 +67,25 @@ class Painter {
   };
   using Job = std::function<void()>;
 
+  void push(Job job);
   void run();
   void wait_for_work();
   bool settled() const;
+  bool is_settled() const;
   bool interrupted() const;
   void do_load(const std::string& file, const FrameOptions& asked);
   std::unique_ptr<Open> open(const std::string& file);
   void do_reload();
   void do_screenshot(const std::string& stem);
   void probe_now();
+  void publish_probe(ProbedPixel probed);
   void paint_latest();
   void paint(const Request& request, double scale, bool at_rest);
   FrameChoice choose(const ViewState& state, Size size);
   void add_looks(Frame& frame, const Request& request, int light);
   void add_difference(Frame& frame);
+  /// What the rays of a frame depend on.
+  static std::string truth_key(const Request& request);
   bool wants_truth(const Request& request) const;
   void start_truth(const Request& request);
   void show_truth();
@@ -98,8 +105,7 @@ class Painter {
   std::shared_ptr<Frame> last_;  ///< published last, at rest
   Request last_request_;         ///< of it
   std::shared_ptr<const Snapshot> frozen_;
-  std::optional<std::string> pose_;  ///< as the scene stands
-  std::optional<glm::ivec2> probe_px_;
+  std::optional<std::string> pose_;     ///< as the scene stands
   std::atomic<uint64_t> painting_ = 0;  ///< serial; 0: what is painted is not given up
   uint64_t painted_ = 0, refined_ = 0;
 
@@ -113,6 +119,7 @@ class Painter {
   mutable std::mutex mutex_;
   std::condition_variable work_;
   std::deque<Job> jobs_;
+  std::optional<glm::ivec2> probe_px_;  ///< no job: no long frame is given up for it
   std::optional<Request> latest_;
   std::atomic<bool> quit_ = false, busy_ = false;
   std::atomic<float> loading_ = -1.0f;

@@ -129,6 +129,7 @@ std::vector<std::string> batch_arguments(const ViewState& state, int side, Size 
   FrameOptions frame = state.frame, defaults;
   const SideState& its = state.sides[static_cast<size_t>(side)];
   std::vector<std::string> words{"render", state.scene, "--size", fmt::format("{}x{}", size.width_px, size.height_px)};
+  if (frame.eye.empty()) frame.fov_deg = defaults.fov_deg;  // it goes with --eye alone
   add_changed(words, frame.options(), defaults.options(), {"size", "technique", "preset", "context"});
   if (its.technique != defaults.technique) words.insert(words.end(), {"--technique", its.technique});
   const std::unique_ptr<Technique> made = its.make(), fresh = make_technique(its.technique);

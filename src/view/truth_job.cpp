@@ -70,6 +70,9 @@ void TruthJob::work(const TruthTask& task) {
   } catch (const std::bad_alloc&) {
     traced.masks.clear();
     traced.error = "not enough memory for the ray tracer";
+  } catch (const std::exception& e) {  // a bug: the viewer goes on
+    traced.masks.clear();
+    traced.error = fmt::format("unexpected failure of the ray tracer: {}", e.what());
   }
   if (!cancelled_) done_(std::move(traced));
 }

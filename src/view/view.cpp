@@ -72,6 +72,7 @@ Command add_view(CLI::App& app, const Arguments& arguments) {
   sub->add_option("SCENE", o->scene, "a .gltf or .glb file");
   o->options().add_to(*sub, "Viewer");
   o->frame.options().add_to(*sub, "Frame");
+  sub->get_option("--fov")->needs(sub->get_option("--eye"));
   o->technique->options().add_to(*sub, "Technique " + o->technique->info().name);
   return [o] {
     parse_size(o->frame.size);

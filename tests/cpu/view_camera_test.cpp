@@ -62,6 +62,16 @@ TEST(CameraPose, LooksMovesAndApproachesWithoutLosingItsFocusDistance) {
   EXPECT_NEAR(pose.distance(), 10.0, 1e-12);
 }
 
+TEST(CameraPose, NeverReachesItsFocus) {
+  CameraPose pose{{0, 0, 5}, {0, 0, 0}, 45.0};
+  for (int i = 0; i < 1000; ++i) pose.approach(0.88);
+  EXPECT_GT(pose.distance(), 0.0);
+  pose.orbit(quarter, 0.1);
+  EXPECT_TRUE(std::isfinite(pose.eye_ws.x) && std::isfinite(pose.right().x));
+  for (int i = 0; i < 1000; ++i) pose.approach(1.2);
+  EXPECT_LE(pose.distance(), 1.001e12);
+}
+
 TEST(CameraPose, GoesThroughTheCommandLineWithoutLosingABit) {
   FrameOptions options;
   options.camera = "main";

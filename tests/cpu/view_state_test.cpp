@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "view/difference.h"
 #include "view/path_recorder.h"
 #include "view/settings.h"
 #include "view/shader_watch.h"
@@ -85,6 +86,32 @@ TEST(ViewState, TheCommandNamesWhatDiffersFromTheDefaults) {
   ViewState plain;
   plain.scene = "it's.glb";
   EXPECT_EQ(batch_command(plain, 0, {8, 8}), "izb render 'it'\\''s.glb' --size 8x8");
+}
+
+TEST(ViewState, TheCommandLeavesOutWhatTheBatchProgramWouldRefuse) {
+  ViewState state;
+  state.scene = "x.glb";
+  state.frame.camera = "main";
+  state.frame.fov_deg = 60.0;  // goes with --eye alone
+  EXPECT_EQ(batch_command(state, 0, {8, 8}), "izb render x.glb --size 8x8 --camera main");
+}
+
+TEST(Difference, OrangeWhereOnlyTheFirstIsLitBlueWhereOnlyTheSecond) {
+  Image8 picture;
+  picture.width_px = 4, picture.height_px = 1, picture.components = 4;
+  picture.pixels.assign(16, 255);
+  const std::vector<uint32_t> a{0, 0, 0xFFFFFFFF, 7}, b{0, 0xFFFFFFFF, 0, 15};
+  const Image8 shown = difference_picture(picture, a, b);
+  const auto at = [&](size_t i) {
+    return std::array<int, 3>{shown.pixels[4 * i], shown.pixels[4 * i + 1], shown.pixels[4 * i + 2]};
+  };
+  const int grey = 255 * 254 / 1024;
+  EXPECT_EQ(at(0), (std::array{grey, grey, grey}));
+  EXPECT_EQ(at(1), (std::array{255, 127, grey}));
+  EXPECT_EQ(at(2), (std::array{grey, 127, 255}));
+  EXPECT_EQ(at(3)[0], 85) << "one sample is seen";
+  EXPECT_EQ(at(3)[2], grey);
+  EXPECT_THROW(difference_picture(picture, a, std::vector<uint32_t>{0}), std::logic_error);
 }
 
 TEST(ViewState, ARecordedPathReadsBackAsItWasFlown) {

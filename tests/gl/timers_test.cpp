@@ -36,6 +36,16 @@ TEST_P(Timers, CollectSamplesByNameInOrderOfFirstUse) {
   EXPECT_TRUE(timers.stages().empty());
 }
 
+TEST_P(Timers, WhatAGivenUpFrameLeftIsCleared) {
+  StageTimers timers(GetParam());
+  { const StageTimers::Scope scope(timers, "given up"); }
+  timers.clear();
+  { const StageTimers::Scope scope(timers, "next"); }
+  timers.collect();
+  ASSERT_EQ(timers.stages().size(), 1u);
+  EXPECT_EQ(timers.stages()[0].name, "next");
+}
+
 INSTANTIATE_TEST_SUITE_P(, Timers, testing::Values(true, false),
                          [](const auto& test) { return std::string(test.param ? "wall" : "query"); });
 

@@ -128,6 +128,61 @@ TEST_F(Files, APathIsRecordedAndReplayed) {
   viewer->wait_for("picture", [&](const json& p) { return at_rest(p) && alike(p["eye"], last, near); });
 }
 
+TEST_F(Files, APathThatIsLeftLeavesNoMomentBehind) {
+  viewer->input().key("F3");
+  display->drag({200, 150}, {300, 180}, Button::left, 40);
+  viewer->wait_at_rest();
+  viewer->input().key("F3");
+  viewer->wait_for("wrote");
+  viewer->input().key("F4");
+  viewer->wait_for("picture", [](const json& p) { return p["motion"].get<bool>(); });
+  viewer->input().drag({200, 150}, {205, 150}, Button::left, 5);
+  const json left = viewer->wait_at_rest();
+  EXPECT_EQ(left["sides"][0]["error"], "");
+  EXPECT_EQ(time_of(viewer->state()), -1.0) << "the scene has no animation";
+  EXPECT_EQ(copied_command().get<std::string>().find("--time"), std::string::npos);
+}
+
+TEST_F(Files, WhatIsLoadedAgainIsShownAgain) {
+  viewer->input().key("ctrl+s");
+  viewer->wait_for("wrote");
+  viewer->input().key("ctrl+o");
+  viewer->wait_for("scene");
+  viewer->wait_for("picture", at_rest);
+}
+
+TEST_F(Files, ACameraByNumbersIsWhereTheMouseFindsIt) {
+  viewer->stop();
+  viewer = open({"--eye", "3,4,5", "--target", "0,0.5,0"});
+  EXPECT_EQ(viewer->last("picture")["eye"], json({3.0, 4.0, 5.0}));
+  viewer->input().drag({200, 150}, {203, 150}, Button::left, 3);
+  const json eye = viewer->wait_at_rest()["eye"];
+  EXPECT_NE(eye, json({3.0, 4.0, 5.0}));
+  EXPECT_TRUE(alike(eye, json({3.0, 4.0, 5.0}), 0.3)) << eye;
+}
+
+TEST_F(Files, ANameThatIsNoUtf8IsShownButNotKept) {
+  viewer->stop();
+  const fs::path odd = *folder / "caf\xe9.glb";
+  fs::copy_file(scene, odd, fs::copy_options::overwrite_existing);
+  fs::create_directories(written());
+  Viewer shown(*display, {{IZB_PROGRAM, "view", odd, "--size", "300x200", "--folder", written()}, home(), {}});
+  EXPECT_EQ(shown.wait_for("picture", at_rest)["sides"][0]["error"], "");
+  shown.input().key("ctrl+s");
+  EXPECT_EQ(shown.wait_for("message")["kind"], "error");
+  shown.stop();
+  viewer = nullptr;
+}
+
+TEST_F(Files, AScreenshotDoesNotKeepTheTruthAway) {
+  viewer->input().key("r");
+  display->key("F2");
+  viewer->wait_for("wrote");
+  viewer->wait_for("picture", [](const json& p) {
+    return at_rest(p) && p["sides"].size() == 2 && p["sides"][1]["technique"] == "truth";
+  });
+}
+
 TEST_F(Files, TheStateOutlivesTheProgram) {
   viewer->input().drag({200, 150}, {280, 170}, Button::left, 20);
   display->key("1");

@@ -102,6 +102,7 @@ TEST(WindowLess, BadArgumentsAreASentence) {
     EXPECT_TRUE(outcome.says("/nonexistent/x")) << outcome.err;
   }
   EXPECT_EQ(run_program({IZB_PROGRAM, "view", "--nonsense"}).code, 2);
+  EXPECT_EQ(run_program({IZB_PROGRAM, "view", "--fov", "60"}).code, 2) << "without --eye, as izb render";
 }
 
 }  // namespace

@@ -13,19 +13,24 @@
 
 namespace izb {
 
+void Ui::leave_path() {
+  state_.frame.camera_path.clear();
+  replay_start_s_.reset();
+  if (facts_->animations.empty()) state_.frame.time_s = -1.0;  // the path's moment; no animation has one
+}
+
 void Ui::move_camera() {
   pose_known_ = true;
-  replay_start_s_.reset();
+  leave_path();
   pose_.put_into(state_.frame);
 }
 
 void Ui::show_camera(const std::string& label) {
   state_.frame.eye.clear();
   state_.frame.target.clear();
-  state_.frame.camera_path.clear();
   state_.frame.fov_deg = FrameOptions().fov_deg;
   state_.frame.camera = label;
-  replay_start_s_.reset();
+  leave_path();
   pose_known_ = false;
 }
 
@@ -137,9 +142,8 @@ void Ui::replay() {
     state_.frame.time_s = 0.0;
     replay_length_s_ = path.keys.back().time_s;
     replay_start_s_ = now_s_;
-    const CameraPath::Key& last = path.keys.back();
-    pose_ = {last.eye_ws, last.target_ws, last.yfov_deg};
-    pose_known_ = true;
+    playing_ = false;
+    pose_known_ = false;
   });
 }
 
@@ -156,8 +160,9 @@ void Ui::copy_command() {
   say(false, "copied: " + text);
 }
 
+// By dump() itself, which throws for a name that is not UTF-8: it would not read back.
 void Ui::save_state() {
-  keep("state", folder_ / state_file_, state_.to_json().dump(1) + "\n");
+  attempt([&] { keep("state", folder_ / state_file_, state_.to_json().dump(1) + "\n"); });
 }
 
 void Ui::load_state() {

@@ -36,7 +36,7 @@ void Ui::draw_grid_window() {
   const Look* look = state_.look.empty() ? nullptr : find_look(state_.look);
   if (!look || !look->of_grid || !facts_) return;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float side = std::min({512.0f * window_.pixel_ratio(), 0.36f * size.x, 0.75f * size.y});
+  const float side = std::min({40.0f * ImGui::GetFontSize(), 0.36f * size.x, 0.75f * size.y});
   ImGui::SetNextWindowPos({size.x - side - 32.0f, 36.0f}, ImGuiCond_FirstUseEver);
   bool is_open = true;
   if (ImGui::Begin("Light-space grid", &is_open, ImGuiWindowFlags_AlwaysAutoResize)) {
@@ -53,8 +53,8 @@ void Ui::draw_grid_window() {
         ImGui::SliderInt("layer", &state_.layer, 0, layers - 1);
       }
       const int texels = look_.picture().width_px;
-      if (grid_shown_ != std::pair(frame_->light_space.get(), state_.layer)) {
-        grid_shown_ = {frame_->light_space.get(), state_.layer};
+      if (grid_shown_.first.lock() != frame_->light_space || grid_shown_.second != state_.layer) {
+        grid_shown_ = {frame_->light_space, state_.layer};
         const TexelSquare used = s.built ? used_square(*s.built, state_.layer) : TexelSquare{0, 0, texels};
         grid_square_ = {used.x, used.y, used.side};
       }

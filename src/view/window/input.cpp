@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/find.h"
 #include "view/window/ui.h"
 
 namespace izb {
 namespace {
 
 constexpr double radians_a_unit = 0.006;  // of a drag, in the window's coordinates
-constexpr float bar_reach = 6.0f;
 
 bool pressed(int key) {
   return ImGui::IsKeyPressed(key, false);
@@ -24,17 +24,16 @@ bool Ui::over_interface() const {
 }
 
 void Ui::handle_input() {
-  if (!facts_) return;
   handle_keys();
-  handle_mouse();
+  if (facts_) handle_mouse();
 }
 
 void Ui::handle_keys() {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantTextInput) return;
   if (io.KeyCtrl) {
-    if (pressed('C')) copy_command();
-    if (pressed('S')) save_state();
+    if (pressed('C') && facts_) copy_command();
+    if (pressed('S') && facts_) save_state();
     if (pressed('O')) load_state();
     return;
   }
@@ -52,6 +51,7 @@ void Ui::handle_keys() {
     lit_points_ws_.clear();
     lit_texels_.clear();
   }
+  if (!facts_) return;  // what follows is about a scene
   if (pressed(keys::tab)) panels_ = !panels_;
   if (pressed(keys::f2)) take_screenshot();
   if (pressed(keys::f3)) toggle_recording();
@@ -82,7 +82,7 @@ void Ui::handle_mouse() {
   const float bar = static_cast<float>(state_.split) * io.DisplaySize.x;
   const bool split = state_.compare == Compare::split;
   if (!over_interface() && ImGui::IsMouseClicked(0)) {
-    dragging_bar_ = split && std::abs(io.MousePos.x - bar) < bar_reach * window_.pixel_ratio();
+    dragging_bar_ = split && std::abs(io.MousePos.x - bar) < 0.5f * ImGui::GetFontSize();
     dragging_view_ = !dragging_bar_;
   }
   if (!over_interface() && (ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2))) dragging_view_ = true;
@@ -129,10 +129,10 @@ void Ui::handle_mouse() {
     click_.reset();
     return focus_on(io.MousePos);
   }
-  // A press that went nowhere is a pick.
+  // A press that went nowhere is a pick; the second of a double click is not.
   const ImVec2 moved = ImGui::GetMouseDragDelta(0, 0.0f);
   if (ImGui::IsMouseReleased(0) && !light_key && std::abs(moved.x) + std::abs(moved.y) < 3.0f &&
-      io.MouseDownDurationPrev[0] < 0.5f)
+      io.MouseDownDurationPrev[0] < 0.5f && io.MouseClickedLastCount[0] == 1)
     pick_later(io.MousePos);
 }
 
@@ -155,6 +155,11 @@ void Ui::handle_fly(double dt_s) {
 
 void Ui::turn_light(float dx, float dy, float wheel) {
   if (!frame_ || frame_->lights.empty()) return;
+  const FrameOptions &its = frame_->state.frame, &mine = state_.frame;
+  const auto count = [](const std::string& list) { return list_of(list).size(); };
+  if (its.light != mine.light || count(its.sun) != count(mine.sun) || count(its.spot) != count(mine.spot) ||
+      count(its.point) != count(mine.point))
+    return;  // its lights are others: those that were chosen are not shown yet
   const size_t index = static_cast<size_t>(std::min<int>(state_.active_light, int(frame_->lights.size()) - 1));
   Light light = frame_->lights[index];
   // The picture may be some drags behind: what was asked for last counts.
@@ -197,10 +202,9 @@ void Ui::pick_later(const ImVec2& at) {
 void Ui::pick(const glm::ivec2& px) {
   state_.picked = px;
   lit_points_ws_.clear();
-  asked_probe_ = px;
   // The request that brings the lists goes first.
   send_request();
-  painter_.probe(px);
+  ask_probe(px);
 }
 
 }  // namespace izb

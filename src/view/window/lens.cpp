@@ -61,6 +61,7 @@ void Ui::draw_samples(const SidePicture& side, const ImVec2& corner, float side_
   const size_t i = s.index(px);
   if (!(s.gbuffer.eye_distance[i] > 0.0f)) return;
   ImDrawList* list = ImGui::GetForegroundDrawList();
+  if (side.spp != static_cast<int>(s.samples.offsets_px.size())) return;  // those of the other side lie elsewhere
   const float radius = std::max(1.0f, side_px / 28.0f);
   for (size_t n = 0; n < s.samples.offsets_px.size(); ++n) {
     const glm::vec2 o = s.samples.offsets_px[n];
@@ -121,7 +122,7 @@ void Ui::draw_lens() {
 void Ui::draw_pixel_window() {
   if (!state_.picked) return;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float side = std::min(240.0f * window_.pixel_ratio(), 0.16f * size.x);
+  const float side = std::min(18.0f * ImGui::GetFontSize(), 0.16f * size.x);
   // Beside the grid's picture, if that is there.
   const Look* look = find_look(state_.look);
   const float x =
@@ -180,7 +181,8 @@ void Ui::draw_pixel_window() {
       break;
     }
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(edge_colors[n % std::size(edge_colors)]),
-                       "triangle %u hides %d samples", occluder.triangle, std::popcount(occluder.bits));
+                       "triangle %u hides %d samples", occluder.triangle,
+                       pixel.samples_px.size() == 1 ? 1 : std::popcount(occluder.bits));
     ++n;
   }
   ImGui::PopTextWrapPos();

@@ -28,7 +28,8 @@ void Ui::draw_picture() {
   if (!facts_ || !frame_) {
     const float share = painter_.loading();
     const std::string text = share >= 0.0f ? fmt::format("loading {} ... {:.0f} %", state_.scene, 100.0f * share)
-                                           : "the first picture is being made";
+                             : facts_ || painter_.busy() ? "the first picture is being made"
+                                                         : "drop a .glb or .gltf file here";
     return text_on(list, {0.5f * size.x - 0.5f * ImGui::CalcTextSize(text.c_str()).x, 0.5f * size.y}, text);
   }
   const Look* look = state_.look.empty() ? nullptr : find_look(state_.look);

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_text.h"
 #include "base/machine_memory.h"
 #include "gpu/glsl_front_end.h"
 
@@ -23,7 +24,7 @@ std::string painted_part(const ViewState& state, Size size, bool counts, bool li
   part.picked.reset();
   // To look at one side first and then at both takes another request, to flicker between them none.
   if (part.compare == Compare::flicker) part.compare = Compare::split;
-  return fmt::format("{} {}x{} {} {}", part.to_json().dump(), size.width_px, size.height_px, counts, light_space);
+  return fmt::format("{} {}x{} {} {}", json_text(part.to_json()), size.width_px, size.height_px, counts, light_space);
 }
 
 }  // namespace
@@ -33,7 +34,7 @@ Ui::Ui(Window& window, Painter& painter, Report& report, UiSetup setup)
       painter_(painter),
       report_(report),
       shader_watch_(gpu::glsl_folder()),
-      folder_(std::move(setup.folder)),
+      folder_(std::filesystem::absolute(setup.folder).lexically_normal()),
       settings_file_(std::move(setup.settings)),
       state_(std::move(setup.state)) {
   for (size_t i = 0; i < 2; ++i) options_[i] = state_.sides[i].make();
@@ -90,7 +91,7 @@ double Ui::wait_s() const {
 void Ui::attempt(const std::function<void()>& action) {
   try {
     action();
-  } catch (const Error& e) {
+  } catch (const std::exception& e) {
     say(true, e.what());
   }
 }
@@ -124,9 +125,9 @@ void Ui::take_results() {
     report_.write(
         "picked",
         {{"px", {probed->px.x, probed->px.y}}, {"mask", probed->mask}, {"occluders", occluders}, {"texels", texels}});
-    lit_texels_ = probed->texels;
+    if (asked_probe_ == probed->px) asked_probe_.reset();
+    if (state_.picked == probed->px) lit_texels_ = probed->texels;
     probed_ = std::move(probed);
-    asked_probe_.reset();
   }
   for (const auto& files : painter_.take_written()) {
     say(false, "screenshot: " + files.front());
@@ -152,7 +153,8 @@ void Ui::open(const SceneFacts& facts) {
   }
   state_.scene = facts.file;
   state_.frame = facts.frame;
-  pose_known_ = false;
+  pose_known_ = !state_.frame.eye.empty();
+  if (pose_known_) pose_ = CameraPose::of(state_.frame);
   lit_points_ws_.clear();
   lit_texels_.clear();
   probed_.reset();
@@ -165,13 +167,15 @@ void Ui::open(const SceneFacts& facts) {
   replay_start_s_.reset();
   requested_.clear();  // also where the same is shown again
   requested_motion_ = false;
+  first_serial_ = serial_ + 1;
   if (state_.picked) pick(*state_.picked);
   report_.write("scene", {{"file", facts.file}, {"triangles", facts.triangles}});
   for (const std::string& sentence : facts.ignored) say(false, sentence);
 }
 
 void Ui::take_frame(const std::shared_ptr<const Frame>& frame) {
-  if (!facts_ || frame->state.scene != state_.scene) return;
+  if (!facts_ || frame->serial < first_serial_) return;
+  const bool again = frame_ && frame_->serial == frame->serial && frame_->scale == frame->scale;  // with the truth
   frame_ = frame;
   const bool smooth = frame->scale < 1.0;
   nlohmann::json sides = nlohmann::json::array();
@@ -185,17 +189,18 @@ void Ui::take_frame(const std::shared_ptr<const Frame>& frame) {
         {"name", i == 0 ? "A" : "B"}, {"technique", side->technique}, {"spp", side->spp}, {"error", side->error}};
     if (!side->mask_hash.empty()) entry["mask_hash"] = side->mask_hash;
     sides.push_back(std::move(entry));
-    if (!side->stages.empty())
+    if (!again && !side->stages.empty())
       timings_.push_back({now_s_, frame->scale, i, fmt::format("{} {} spp", side->technique, side->spp), side->stages});
   }
   while (!timings_.empty() && timings_.front().at_s < now_s_ - kept_timings_s) timings_.pop_front();
   difference_.show(frame->difference, smooth);
   look_.show(frame->look ? std::make_shared<const Image8>(frame->look->picture) : nullptr, false);
-  // What moves by the keys of an animation or a path moves the camera here, too.
-  if (!pose_known_) {
-    const double distance = glm::distance(glm::dvec3(frame->camera.world_from_view[3]), facts_->center_ws);
-    if (state_.frame.eye.empty()) pose_ = CameraPose::of(frame->camera, std::max(distance, 1e-3 * facts_->radius_ws));
-    pose_known_ = true;
+  follow_camera(*frame);
+  if (!frame->motion && frame->serial != probed_serial_) {
+    probed_serial_ = frame->serial;  // what was looked at was of another picture
+    probed_.reset();
+    lit_texels_.clear();
+    if (state_.picked) ask_probe(*state_.picked);
   }
   const glm::dvec3 eye(frame->camera.world_from_view[3]);
   report_.write("picture", {{"serial", frame->serial},
@@ -204,6 +209,21 @@ void Ui::take_frame(const std::shared_ptr<const Frame>& frame) {
                             {"frame_ms", frame_ms},
                             {"eye", {eye.x, eye.y, eye.z}},
                             {"sides", sides}});
+}
+
+/// A camera of the scene or of a path is where the frame had it, whatever moves it.
+void Ui::follow_camera(const Frame& frame) {
+  const FrameOptions &its = frame.state.frame, &mine = state_.frame;
+  if (!mine.eye.empty() || frame.lights.empty()) return;  // moved by hand; or there was no such camera
+  if (its.eye != mine.eye || its.camera != mine.camera || its.camera_path != mine.camera_path) return;
+  const double distance = glm::distance(glm::dvec3(frame.camera.world_from_view[3]), facts_->center_ws);
+  pose_ = CameraPose::of(frame.camera, std::max(distance, 1e-3 * facts_->radius_ws));
+  pose_known_ = true;
+}
+
+void Ui::ask_probe(const glm::ivec2& px) {
+  asked_probe_ = px;
+  painter_.probe(px);
 }
 
 void Ui::send_request() {
@@ -236,7 +256,7 @@ void Ui::report_changes() {
   }
   if (now_s_ - last_report_s_ < 0.1) return;
   last_report_s_ = now_s_;
-  if (const std::string now = state_.to_json().dump(); facts_ && now != reported_state_) {
+  if (const std::string now = json_text(state_.to_json()); facts_ && now != reported_state_) {
     reported_state_ = now;
     report_.write("state", {{"state", state_.to_json()}});
   }
@@ -251,8 +271,7 @@ void Ui::report_changes() {
 
 /// Whether the window shows all that was asked for.
 bool Ui::rests() const {
-  if (!facts_ || loading_state_ || painter_.loading() >= 0.0f || painter_.busy() || painter_.tracing() >= 0.0f)
-    return false;
+  if (!facts_ || loading_state_ || painter_.works()) return false;
   return frame_ && frame_->serial == serial_ && !frame_->motion && !requested_motion_ && !asked_probe_ && !click_;
 }
 

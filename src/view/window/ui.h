@@ -51,6 +51,8 @@ class Ui {
   void take_results();
   void take_frame(const std::shared_ptr<const Frame>& frame);
   void open(const SceneFacts& facts);
+  void follow_camera(const Frame& frame);
+  void ask_probe(const glm::ivec2& px);
   void send_request();
   void report_changes();
   bool rests() const;
@@ -69,6 +71,7 @@ class Ui {
   void focus_on(const ImVec2& at);
 
   // actions.cpp: what a key and a button both do
+  void leave_path();
   void move_camera();
   void show_camera(const std::string& label);
   void next_camera();
@@ -160,13 +163,15 @@ class Ui {
   std::optional<std::pair<size_t, Light>> moved_light_;  ///< as it was dragged last
 
   uint64_t serial_ = 0;
-  std::string requested_;  ///< what the last request shows
+  uint64_t first_serial_ = 1;   ///< of the scene that is open
+  uint64_t probed_serial_ = 0;  ///< of the picture that probed_ is of
+  std::string requested_;       ///< what the last request shows
   bool requested_motion_ = false;
   std::string reported_state_;
   bool rest_reported_ = false;
   std::map<std::string, std::array<float, 4>> rects_, reported_rects_;
-  std::pair<const Snapshot*, int> grid_shown_{nullptr, -1};  ///< of which grid_square_ is
-  glm::ivec3 grid_square_{0};                                ///< of the grid: lower left texel, side
+  std::pair<std::weak_ptr<const Snapshot>, int> grid_shown_;  ///< of which grid_square_ is; an address may come again
+  glm::ivec3 grid_square_{0};                                 ///< of the grid: lower left texel, side
   double now_s_ = 0.0, last_report_s_ = -1.0, last_watch_s_ = 0.0, last_memory_s_ = 0.0, last_motion_s_ = -10.0;
 
   bool panels_ = true, help_ = false, hints_ = false, counts_ = false, frusta_ = false, show_light_ = false;

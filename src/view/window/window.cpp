@@ -91,7 +91,8 @@ void Window::note_input(const char* kind) {
 void Window::fit_scale() {
   float x = 1.0f, y = 1.0f;
   glfwGetWindowContentScale(window_, &x, &y);
-  const float scale = std::clamp(std::max(x, y), 1.0f, 4.0f);
+  // Where a unit of the window's coordinates is several pixels (Wayland, macOS) the system has scaled already.
+  const float scale = std::clamp(std::max(x, y) / pixel_ratio(), 1.0f, 4.0f);
   if (scale == content_scale_) return;
   content_scale_ = scale;
   ImGuiIO& io = ImGui::GetIO();
