@@ -11,22 +11,20 @@
 namespace izb {
 namespace {
 
-using nlohmann::json;
-
 /// What may differ between two runs that render the same pictures.
-json without_outputs(json options) {
+nlohmann::json without_outputs(nlohmann::json options) {
   for (const char* key : {"preview", "json", "frames", "resume", "repeat", "peer"}) options.erase(key);
   return options;
 }
 
-std::optional<json> stored_facts(const std::string& path) {
-  if (path.ends_with(".json")) return json::parse(read_text_file(path));
+std::optional<nlohmann::json> stored_facts(const std::string& path) {
+  if (path.ends_with(".json")) return nlohmann::json::parse(read_text_file(path));
   const auto attributes = read_exr_attributes(path);
-  json facts;
+  nlohmann::json facts;
   for (const char* key : {"options", "scene", "frame"}) {
     const auto it = attributes.find(std::string("izb.") + key);
     if (it == attributes.end() || !std::holds_alternative<std::string>(it->second)) return {};
-    facts[key] = json::parse(std::get<std::string>(it->second));
+    facts[key] = nlohmann::json::parse(std::get<std::string>(it->second));
   }
   return facts;
 }
@@ -76,19 +74,19 @@ std::string numbered(const std::string& path, int frame) {
   return (whole.parent_path() / result).string();
 }
 
-bool is_rendered(const std::string& path, const json& facts) {
+bool is_rendered(const std::string& path, const nlohmann::json& facts) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return false;
-  std::optional<json> stored;
+  std::optional<nlohmann::json> stored;
   try {
     stored = stored_facts(path);
-  } catch (const json::exception&) {
+  } catch (const nlohmann::json::exception&) {
     stored.reset();
   }
   if (!stored || !stored->contains("options")) fail("'{}' is no frame that izb rendered, so --resume stops", path);
   const bool same = without_outputs((*stored)["options"]) == without_outputs(facts["options"]) &&
-                    stored->value("scene", json()) == facts["scene"] &&
-                    stored->value("frame", json()) == facts["frame"];
+                    stored->value("scene", nlohmann::json()) == facts["scene"] &&
+                    stored->value("frame", nlohmann::json()) == facts["frame"];
   if (!same) fail("'{}' was rendered with other options or of another scene, so --resume stops", path);
   return true;
 }

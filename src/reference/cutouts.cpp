@@ -12,7 +12,7 @@ namespace {
 // A mask may round texels' sums and the cut-off to floats: 2^-24 each, some five times.
 constexpr double alpha_rounding = 1e-6;
 // Slack for the doubles here: some thousand ulps.
-constexpr double rounding = 1e-13;
+constexpr double texel_rounding = 1e-13;
 // A wider neighbourhood is not searched: nothing is sure there.
 constexpr int64_t widest = 64;
 constexpr double furthest_texel = 1e9;
@@ -158,7 +158,7 @@ Presence Cutouts::within(size_t triangle, const Corners& corners, const Beam& be
     const glm::dvec3 seen = gradient - h.normal * (glm::dot(gradient, beam.direction) / h.facing);
     const double steepest = glm::length(seen) + 2.0 * tilt * (1.0 + grazing) * glm::length(gradient);
     const double r =
-        1.01 * beam.reach * steepest + rounding * (size * grazing * glm::length(gradient) + std::abs(h.texel[i]));
+        1.01 * beam.reach * steepest + texel_rounding * (size * grazing * glm::length(gradient) + std::abs(h.texel[i]));
     radius[i] = r < double(widest) ? r : double(widest);  // also NaN
   }
   const auto [least, most] = map.range(h.texel, radius);

@@ -21,7 +21,7 @@ using namespace izb::test;
 constexpr const char* keys[] = {"Home", "n",      "k",       "1",  "p",  "t",     "c",     "x",
                                 "r",    "v",      "shift+v", "g",  "z",  "space", "comma", "period",
                                 "F1",   "Escape", "Tab",     "F2", "F3", "F4",    "F5",    "ctrl+c"};
-constexpr Point first_size{480, 300};
+constexpr Point first_size{480, 300}, largest_size{700, 450};
 
 class Soak {
  public:
@@ -35,22 +35,34 @@ class Soak {
         ViewerOptions{
             {IZB_PROGRAM, "view", good_[0], "--size", "480x300", "--folder", written_}, folder_ / "home", {}});
     viewer_->wait_at_rest();
+    // With both sides on the screen, so that each time the memory is measured both hold what they hold now.
+    viewer_->input().key("c");
+    viewer_->wait_for("state", [](const json& line) { return compare_of(line["state"]) == "split"; });
+    viewer_->wait_at_rest();
+    first_state_ = viewer_->state();
     viewer_->input().key("ctrl+s");
     state_file_ = written_ / viewer_->wait_for("wrote")["files"][0].get<std::string>();
     state_ = text_of(state_file_);
   }
 
   void run() {
-    const double start_s = now_s(), minute_s = start_s + 60.0, end_s = start_s + seconds_;
+    if (seconds_ >= 180.0) tour();
+    const double start_s = now_s();
     double baseline_bytes = 0.0;
-    while (now_s() < end_s) {
+    for (double measured_s = 0.0, at_s; (at_s = now_s() - start_s) < seconds_;) {
       act();
       check();
-      if (baseline_bytes == 0.0 && seconds_ >= 180.0 && now_s() >= minute_s) baseline_bytes = bytes_at_home();
+      // After the first minute, and then as often as shows where growth begins.
+      if (seconds_ < 180.0 || at_s < (baseline_bytes == 0.0 ? 60.0 : measured_s + 300.0)) continue;
+      measured_s = at_s;
+      const double bytes = bytes_at_home();
+      std::printf("memory after %.0f s: %.1f MB\n", at_s, bytes / 1e6);
+      std::fflush(stdout);
+      if (baseline_bytes == 0.0) baseline_bytes = bytes;
     }
     if (baseline_bytes > 0.0) {
       const double bytes = bytes_at_home();
-      std::printf("memory: %.1f MB after a minute, %.1f MB at the end\n", baseline_bytes / 1e6, bytes / 1e6);
+      std::printf("memory at the end: %.1f MB\n", bytes / 1e6);
       if (bytes > 1.1 * baseline_bytes) throw std::runtime_error("the memory grows");
     }
     go_home();
@@ -68,6 +80,22 @@ class Soak {
   Point somewhere() {
     const Point size = display_.size();
     return {up_to(size.x - 1), up_to(size.y - 1)};
+  }
+
+  /// Everything once, in the largest window, so that what is loaded or compiled at its first use is there.
+  void tour() {
+    doing("the largest window").resize_window(largest_size.x, largest_size.y);
+    viewer_->wait_at_rest(300.0);
+    for (const char* key : keys)
+      for (int times = 0; times < 4; ++times) {
+        doing(std::string("tour ") + key).key(key);
+        viewer_->wait_at_rest(300.0);
+      }
+    for (const fs::path& file : good_) {
+      drop_files(doing("tour drop"), {file}, {0, 0});
+      viewer_->wait_at_rest(300.0);
+    }
+    go_home();
   }
 
   /// `what` is about to be done.
@@ -147,7 +175,8 @@ class Soak {
       display_.map();
       return;
     }
-    const Point size = up_to(5) == 0 ? Point{1, 1} : Point{200 + up_to(500), 150 + up_to(300)};
+    const Point size =
+        up_to(5) == 0 ? Point{1, 1} : Point{200 + up_to(largest_size.x - 200), 150 + up_to(largest_size.y - 150)};
     doing("resize to " + text(size)).resize_window(size.x, size.y);
   }
 
@@ -178,11 +207,17 @@ class Soak {
     for (int i = 0; i < 3; ++i) x.key("Escape");
     write_file(state_file_, state_);
     x.key("ctrl+o");
+    if (!wait_until(300.0, [&] { return !viewer_->runs() || viewer_->state() == first_state_; }))
+      throw std::runtime_error("the state of the beginning does not come back: " + viewer_->state().dump());
     viewer_->wait_at_rest(300.0);
   }
 
   double bytes_at_home() {
     go_home();
+    if (const char* e = getenv("SOAK_DUMP"))
+      (void)!system(
+          (std::string("cat /proc/$(pgrep -f 'izb view'|head -1)/smaps > ") + e + "." + std::to_string(++dump_))
+              .c_str());
     doing("memory");
     double bytes = 0.0;
     viewer_->wait_for("memory", [&, n = 0](const json& line) mutable {
@@ -205,10 +240,12 @@ class Soak {
   std::vector<fs::path> good_, bad_;
   fs::path state_file_;
   std::string state_;
+  json first_state_;
   XDisplay display_;
   std::unique_ptr<Viewer> viewer_;
   std::deque<std::string> last_inputs_;
   int count_ = 0;
+  int dump_ = 0;
 };
 
 }  // namespace
