@@ -75,13 +75,21 @@ nlohmann::json ViewState::to_json() const {
   FrameOptions copy = frame;
   nlohmann::json both = nlohmann::json::array();
   for (const SideState& side : sides) both.push_back({{"technique", side.technique}, {"options", side.options}});
-  return {{"scene", scene},   {"frame", copy.options().to_json()},
-          {"sides", both},    {"active", active},
-          {"truth", truth},   {"compare", name(compare)},
-          {"split", split},   {"look", look},
-          {"layer", layer},   {"active_light", active_light},
-          {"lens", lens},     {"lens_power", lens_power},
-          {"frozen", frozen}, {"picked", picked ? nlohmann::json::array({picked->x, picked->y}) : nlohmann::json()}};
+  return {{"scene", scene},
+          {"frame", copy.options().to_json()},
+          {"sides", both},
+          {"active", active},
+          {"truth", truth},
+          {"compare", name(compare)},
+          {"split", split},
+          {"look", look},
+          {"layer", layer},
+          {"active_light", active_light},
+          {"lens", lens},
+          {"lens_power", lens_power},
+          {"frozen", frozen},
+          {"frusta", frusta},
+          {"picked", picked ? nlohmann::json::array({picked->x, picked->y}) : nlohmann::json()}};
 }
 
 ViewState ViewState::from_json(const nlohmann::json& json) {
@@ -108,6 +116,7 @@ ViewState ViewState::from_json(const nlohmann::json& json) {
     take(json, "lens", state.lens);
     take(json, "lens_power", state.lens_power);
     take(json, "frozen", state.frozen);
+    take(json, "frusta", state.frusta);
     if (const auto picked = json.find("picked"); picked != json.end() && !picked->is_null())
       state.picked = {picked->at(0).get<int>(), picked->at(1).get<int>()};
     const std::string compare = json.value("compare", std::string("off"));

@@ -40,6 +40,7 @@ struct ViewState {
   bool lens = false;
   int lens_power = 8;  ///< 2 to 32
   bool frozen = false;
+  bool frusta = false;               ///< the cascades are drawn as frusta
   std::optional<glm::ivec2> picked;  ///< the pixel that is looked at, from the upper left at full resolution
 
   int other() const { return 1 - active; }

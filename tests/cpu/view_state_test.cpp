@@ -40,6 +40,7 @@ ViewState some_state() {
   state.compare = Compare::difference;
   state.split = 0.25;
   state.look = "depth";
+  state.frusta = true;
   state.lens = true;
   state.lens_power = 16;
   state.picked = {3, 4};

@@ -38,7 +38,7 @@ class Soak {
     // With both sides on the screen, so that each time the memory is measured both hold what they hold now.
     viewer_->input().key("c");
     viewer_->wait_for("state", [](const json& line) { return compare_of(line["state"]) == "split"; });
-    viewer_->wait_at_rest();
+    first_sides_ = viewer_->wait_at_rest()["sides"];
     first_state_ = viewer_->state();
     viewer_->input().key("ctrl+s");
     state_file_ = written_ / viewer_->wait_for("wrote")["files"][0].get<std::string>();
@@ -209,7 +209,10 @@ class Soak {
     x.key("ctrl+o");
     if (!wait_until(300.0, [&] { return !viewer_->runs() || viewer_->state() == first_state_; }))
       throw std::runtime_error("the state of the beginning does not come back: " + viewer_->state().dump());
-    viewer_->wait_at_rest(300.0);
+    const json sides = viewer_->wait_at_rest(300.0)["sides"];
+    if (sides != first_sides_)
+      throw std::runtime_error("the picture of the beginning does not come back: " + sides.dump() + " for " +
+                               first_sides_.dump());
   }
 
   double bytes_at_home() {
@@ -240,7 +243,7 @@ class Soak {
   std::vector<fs::path> good_, bad_;
   fs::path state_file_;
   std::string state_;
-  json first_state_;
+  json first_state_, first_sides_;
   XDisplay display_;
   std::unique_ptr<Viewer> viewer_;
   std::deque<std::string> last_inputs_;

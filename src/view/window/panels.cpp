@@ -256,7 +256,7 @@ void Ui::compare_panel() {
 void Ui::stages_panel() {
   if (!ImGui::CollapsingHeader("Stages")) return mark("Stages");
   mark("Stages");
-  ImGui::Checkbox("cascades as frusta", &frusta_);
+  ImGui::Checkbox("cascades as frusta", &state_.frusta);
   mark("frusta");
   ImGui::Checkbox("freeze the light space", &state_.frozen);
   mark("freeze");

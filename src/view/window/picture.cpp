@@ -97,7 +97,7 @@ void Ui::draw_split_bar() {
 
 void Ui::draw_overlays() {
   if (!frame_) return;
-  if (frusta_ && frame_->light_space) draw_frusta();
+  if (state_.frusta && frame_->light_space) draw_frusta();
   if (show_light_) draw_light();
   draw_lit_points();
   draw_status();

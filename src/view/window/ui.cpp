@@ -22,6 +22,7 @@ std::string painted_part(const ViewState& state, Size size, bool counts, bool li
   part.lens = false;
   part.lens_power = 8;
   part.picked.reset();
+  part.frusta = false;  // counts in `light_space`
   // To look at one side first and then at both takes another request, to flicker between them none.
   if (part.compare == Compare::flicker) part.compare = Compare::split;
   return fmt::format("{} {}x{} {} {}", json_text(part.to_json()), size.width_px, size.height_px, counts, light_space);
@@ -229,7 +230,7 @@ void Ui::ask_probe(const glm::ivec2& px) {
 void Ui::send_request() {
   if (!facts_) return;
   const Size size = window_.framebuffer();
-  const bool light_space = frusta_ || state_.picked || !lit_points_ws_.empty() || state_.frozen;
+  const bool light_space = state_.frusta || state_.picked || !lit_points_ws_.empty() || state_.frozen;
   const std::string part = painted_part(state_, size, counts_, light_space);
   const bool changed = part != requested_;
   const bool held = dragging_view_ || flying_ || playing_ || replay_start_s_.has_value();

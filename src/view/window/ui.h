@@ -174,7 +174,7 @@ class Ui {
   glm::ivec3 grid_square_{0};                                 ///< of the grid: lower left texel, side
   double now_s_ = 0.0, last_report_s_ = -1.0, last_watch_s_ = 0.0, last_memory_s_ = 0.0, last_motion_s_ = -10.0;
 
-  bool panels_ = true, help_ = false, hints_ = false, counts_ = false, frusta_ = false, show_light_ = false;
+  bool panels_ = true, help_ = false, hints_ = false, counts_ = false, show_light_ = false;
   bool dragging_bar_ = false, dragging_view_ = false, playing_ = false, flying_ = false, flicker_on_ = false;
   double fly_speed_ = 1.0;  ///< scene radii in four seconds
   std::optional<PathRecorder> recorder_;
