@@ -42,13 +42,10 @@ TEST_F(Bars32, NothingUnexplainedUnderAnyLightAtAnyTime) {
       EXPECT_EQ(j["unexplained"], 0) << scene << what;
     }
   };
-  const std::vector<std::pair<std::string, std::string>> lamps{{"sponza_dabrovic", "2,4,0"},
-                                                               {"nexuiz_aneurysm", "750,150,-1450"},
-                                                               {"kicad_video_board", "110,12,115"},
-                                                               {"ldraw_xwing", "120,90,60"},
-                                                               {"morse_human_rig", "0.8,1.6,0.4"},
-                                                               {"0ad_obedska_bog", "835,15,-1005"},
-                                                               {"stk_black_forest", "250,30,-290"}};
+  const std::vector<std::pair<std::string, std::string>> lamps{
+      {"sponza_dabrovic", "2,4,0"},       {"nexuiz_aneurysm", "750,150,-1450"}, {"kicad_video_board", "110,12,115"},
+      {"ldraw_xwing", "120,90,60"},       {"morse_human_rig", "0.8,1.6,0.4"},   {"0ad_obedska_bog", "835,15,-1005"},
+      {"stk_black_forest", "250,30,-290"}};
   for (const fs::path& scene : scenes) {
     check(scene, {"--sun", "200,0.5"});
     for (const auto& [name, lamp] : lamps)
