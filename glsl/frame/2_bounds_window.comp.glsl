@@ -1,5 +1,6 @@
 #version 450 core
 // 5.2 The light's windows fit the receivers of their layers each frame, without a read-back.
+// Defines: MICRO_QUAD.
 #include "shared/bindings.h"
 #include "shared/bounds.h"
 
@@ -11,5 +12,9 @@ layout(std430, binding = BIND_WINDOW) writeonly buffer WindowBlock { LightWindow
 
 void main() {
   uint layer = gl_LocalInvocationID.x;
+#ifdef MICRO_QUAD
+  windows[layer] = make_quad_window(light, all_bounds[layer]);
+#else
   windows[layer] = make_window(light, all_bounds[layer]);
+#endif
 }

@@ -56,6 +56,15 @@ SHARED float side_in_use(IN(LightFrame) light, uint receivers) {
   return density > 0.0f ? min(side, max(16.0f, ceil(sqrt(density * float(receivers))))) : side;
 }
 
+// Texels by which a grid position may be wrong whose u and v are off by uv_error, and the same for a depth.
+SHARED float texel_guard(IN(LightWindow) w, float uv_error) {
+  return uv_error * max(w.window.z, w.window.w) + 8.0f * unit_roundoff * w.guard.y;
+}
+
+SHARED float depth_guard(IN(LightWindow) w, float d_error) {
+  return d_error * w.depth.y + 8.0f * unit_roundoff * (1.0f + abs(w.depth.x));
+}
+
 // The receivers fill all but one texel at each border; a window without extent gets one from the values' own rounding.
 SHARED LightWindow make_window(IN(LightFrame) light, IN(ReceiverBounds) b) {
   LightWindow w;
@@ -74,9 +83,20 @@ SHARED LightWindow make_window(IN(LightFrame) light, IN(ReceiverBounds) b) {
   w.window = vec4(low.x - 1.0f / scale.x, low.y - 1.0f / scale.y, scale.x, scale.y);
   float depth_scale = 0.5f / extent.z;
   float depth_offset = 0.25f - low.z * depth_scale;
-  float depth_guard = d_slack * depth_scale + 8.0f * unit_roundoff * (1.0f + abs(depth_offset));
-  w.depth = vec4(depth_offset, depth_scale, depth_guard, 0.0f);
-  w.guard = vec4(uv_slack * max(scale.x, scale.y) + 8.0f * unit_roundoff * side, side, 0.0f, 0.0f);
+  w.depth = vec4(depth_offset, depth_scale, 0.0f, 0.0f);
+  w.guard = vec4(0.0f, side, 0.0f, 0.0f);
+  w.guard.x = texel_guard(w, uv_slack);
+  w.depth.z = depth_guard(w, d_slack);
+  return w;
+}
+
+// Of micro-quads. A pixel whose own is more wrong than this window's guards say brings its own guard along (faces.h,
+// quad_guard). One that nearly reaches the light's plane is wrong by several texels; with a guard for that one every other
+// pixel went into a hundred texels.
+SHARED LightWindow make_quad_window(IN(LightFrame) light, IN(ReceiverBounds) b) {
+  LightWindow w = make_window(light, b);
+  w.guard.x = min(w.guard.x, 0.0625f);
+  w.depth.z = min(w.depth.z, 0.00048828125f);
   return w;
 }
 

@@ -101,9 +101,18 @@ SHARED QuadPart quad_part(IN(LightFrame) light, IN(MicroQuad) m, int f) {
   return part;
 }
 
+// Texels by which a point of the part may be off.
+SHARED float quad_guard(IN(LightWindow) window, IN(QuadPart) part) {
+  return max(window.guard.x, texel_guard(window, part.slack.x));
+}
+
 // The part's outline on the grid: of one that is not whole, its box.
 SHARED QuadOnGrid part_on_grid(IN(LightFrame) face, IN(LightWindow) window, IN(MicroQuad) m, IN(QuadPart) part) {
-  if (part.whole) return project_quad(face, window, m);
+  if (part.whole) {
+    QuadOnGrid whole = project_quad(face, window, m);
+    whole.deepest += max(depth_guard(window, part.slack.y) - window.depth.z, 0.0f);
+    return whole;
+  }
   vec3 low = grid_position(window, part.low);
   vec3 high = grid_position(window, part.high);
   QuadOnGrid q;

@@ -27,12 +27,19 @@ gpu::ProgramSpec reduce_spec(bool micro_quads, int cascades, bool cube) {
   return spec;
 }
 
+gpu::ProgramSpec window_spec(bool micro_quads) {
+  gpu::ProgramSpec spec{"bounds window", {"frame/2_bounds_window.comp.glsl"}, {}};
+  if (micro_quads) spec.defines["MICRO_QUAD"] = "1";
+  return spec;
+}
+
 }  // namespace
 
 std::vector<gpu::ProgramSpec> BoundsStage::program_specs() {
-  std::vector<gpu::ProgramSpec> specs{{"bounds window", {"frame/2_bounds_window.comp.glsl"}, {}},
-                                      {"bounds range", {"frame/2_bounds_range.comp.glsl"}, {}},
-                                      {"bounds split", {"frame/2_bounds_split.comp.glsl"}, {}}};
+  std::vector<gpu::ProgramSpec> specs{{"bounds range", {"frame/2_bounds_range.comp.glsl"}, {}},
+                                      {"bounds split", {"frame/2_bounds_split.comp.glsl"}, {}},
+                                      window_spec(false),
+                                      window_spec(true)};
   for (const bool micro_quads : {false, true})
     for (const int cascades : {1, shared::max_cascades})
       for (const bool cube : {false, true}) specs.push_back(reduce_spec(micro_quads, cascades, cube));
@@ -40,14 +47,14 @@ std::vector<gpu::ProgramSpec> BoundsStage::program_specs() {
 }
 
 BoundsStage::BoundsStage()
-    : window_program_(program_specs()[0]),
-      range_program_(program_specs()[1]),
-      split_program_(program_specs()[2]),
+    : range_program_(program_specs()[0]),
+      split_program_(program_specs()[1]),
       bounds_("receiver bounds", sizeof(shared::ReceiverBounds) * shared::max_layers),
       windows_("light windows", sizeof(shared::LightWindow) * shared::max_layers),
       cascades_buffer_("cascades", sizeof(shared::CascadeRange)) {}
 
 void BoundsStage::prepare(bool micro_quads, int cascades) {
+  window_program_.become(window_spec(micro_quads));
   if (micro_quads == micro_quads_ && cascades == cascades_) return;
   reduce_ = gpu::Program();
   reduce_cube_ = gpu::Program();

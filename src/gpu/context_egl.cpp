@@ -63,16 +63,19 @@ class EglContext final : public Context {
     EGLint count = 0;
     if (!eglChooseConfig(display_, config_attributes, &config, 1, &count) || count == 0)
       fail("no config for desktop OpenGL ({})", egl_error_words());
-    const EGLint context_attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                         4,
-                                         EGL_CONTEXT_MINOR_VERSION,
-                                         5,
-                                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                         EGL_CONTEXT_OPENGL_DEBUG,
-                                         debug ? EGL_TRUE : EGL_FALSE,
-                                         EGL_NONE};
-    context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, context_attributes);
+    // A reset must be told (gpu/gl.h, expect_context); a driver that cannot is taken as it is.
+    for (const bool tells_resets : {true, false}) {
+      std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION,       4,
+                                     EGL_CONTEXT_MINOR_VERSION,       5,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                     EGL_CONTEXT_OPENGL_DEBUG,        debug ? EGL_TRUE : EGL_FALSE};
+      if (tells_resets)
+        attributes.insert(attributes.end(),
+                          {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
+      attributes.push_back(EGL_NONE);
+      context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, attributes.data());
+      if (context_ != EGL_NO_CONTEXT) break;
+    }
     if (context_ == EGL_NO_CONTEXT) fail("no OpenGL 4.5 core context ({})", egl_error_words());
     if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
       fail("cannot make the context current without a surface ({})", egl_error_words());

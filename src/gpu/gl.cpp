@@ -22,4 +22,17 @@ void load_gl(GetProcAddress get_proc_address) {
 #undef IZB_LOAD
 }
 
+void expect_context() {
+  switch (glGetGraphicsResetStatus()) {
+    case GL_NO_ERROR:
+      return;
+    case GL_GUILTY_CONTEXT_RESET:
+      fail("the GL driver has reset this program's context: a fault, or work beyond the driver's time limit");
+    case GL_INNOCENT_CONTEXT_RESET:
+      fail("the GL driver has reset the GPU because of another program; start this one again");
+    default:
+      fail("the GL driver has reset the GPU for a reason unknown; start this program again");
+  }
+}
+
 }  // namespace izb::gpu

@@ -36,7 +36,7 @@
   X(PFNGLENDCONDITIONALRENDERPROC, glEndConditionalRender) X(PFNGLENDQUERYPROC, glEndQuery) \
   X(PFNGLFENCESYNCPROC, glFenceSync) X(PFNGLCLEARPROC, glClear) X(PFNGLCLEARCOLORPROC, glClearColor) X(PFNGLCLIENTWAITSYNCPROC, glClientWaitSync) X(PFNGLDELETESYNCPROC, glDeleteSync) \
   X(PFNGLFINISHPROC, glFinish) X(PFNGLFLUSHPROC, glFlush) X(PFNGLGENERATETEXTUREMIPMAPPROC, glGenerateTextureMipmap) \
-  X(PFNGLGETERRORPROC, glGetError) X(PFNGLGETFLOATVPROC, glGetFloatv) X(PFNGLGETINTEGER64VPROC, glGetInteger64v) X(PFNGLGETINTEGERVPROC, glGetIntegerv) \
+  X(PFNGLGETERRORPROC, glGetError) X(PFNGLGETGRAPHICSRESETSTATUSPROC, glGetGraphicsResetStatus) X(PFNGLGETFLOATVPROC, glGetFloatv) X(PFNGLGETINTEGER64VPROC, glGetInteger64v) X(PFNGLGETINTEGERVPROC, glGetIntegerv) \
   X(PFNGLGETNAMEDBUFFERSUBDATAPROC, glGetNamedBufferSubData) X(PFNGLGETPROGRAMINFOLOGPROC, glGetProgramInfoLog) \
   X(PFNGLGETPROGRAMINTERFACEIVPROC, glGetProgramInterfaceiv) X(PFNGLGETPROGRAMIVPROC, glGetProgramiv) \
   X(PFNGLGETPROGRAMRESOURCEINDEXPROC, glGetProgramResourceIndex) \
@@ -75,3 +75,11 @@ IZB_GL_FUNCTIONS(IZB_DECLARE)
 IZB_GL_EXTENSION_FUNCTIONS(IZB_DECLARE)
 #undef IZB_DECLARE
 // clang-format on
+
+namespace izb::gpu {
+
+/// Throws izb::Error if the driver has reset the current context (a fault, or work beyond its time limit). From then on
+/// commands do nothing, and what is read back is not what was asked for: to be called after every reading.
+void expect_context();
+
+}  // namespace izb::gpu

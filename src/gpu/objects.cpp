@@ -73,8 +73,9 @@ void Buffer::fill(uint32_t value, size_t offset_bytes, size_t size_bytes) {
 }
 
 void Buffer::read_bytes(size_t offset_bytes, size_t size_bytes, void* data) const {
-  if (size_bytes > 0)
-    glGetNamedBufferSubData(name_, static_cast<GLintptr>(offset_bytes), static_cast<GLsizeiptr>(size_bytes), data);
+  if (size_bytes == 0) return;
+  glGetNamedBufferSubData(name_, static_cast<GLintptr>(offset_bytes), static_cast<GLsizeiptr>(size_bytes), data);
+  expect_context();
 }
 
 Texture::Texture(const std::string& text, GLenum format, int width_px, int height_px, int levels)
@@ -147,6 +148,7 @@ void Texture::clear(GLenum format, GLenum type, const void* value) {
 void Texture::read_bytes(GLenum format, GLenum type, size_t bytes, void* data) const {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glGetTextureImage(name_, 0, format, type, static_cast<GLsizei>(bytes), data);
+  expect_context();
 }
 
 void Framebuffer::create(const std::string& text) {

@@ -68,6 +68,11 @@ struct Built {
     return shared::make_micro_quad(frame.inputs.camera, glm::ivec2(frame.gbuffer.center_px(i)),
                                    frame.gbuffer.micro_quad[i]);
   }
+  shared::QuadPart part(size_t i, int face) const {
+    return light().grid.z == 1 ? shared::whole_quad(light(), quad(i)) : shared::quad_part(light(), quad(i), face);
+  }
+  /// Texels by which its points may be off.
+  float guard(size_t i) const { return shared::quad_guard(window(i), part(i, layer(i) / cascades())); }
   glm::vec3 grid_position(size_t i, const glm::vec2& offset_px) const {
     return shared::grid_position(window(i), shared::micro_quad_uvd(face_light(i), quad(i), offset_px));
   }
@@ -79,9 +84,7 @@ struct Built {
     if (frame.gbuffer.micro_quad.empty()) return position(i).z + window(i).depth.z;
     const int f = layer / cascades();
     const shared::LightFrame its = shared::light_face(light(), f);
-    const shared::QuadPart part =
-        light().grid.z == 1 ? shared::whole_quad(light(), quad(i)) : shared::quad_part(light(), quad(i), f);
-    return shared::part_on_grid(its, frame.windows[size_t(layer)], quad(i), part).deepest;
+    return shared::part_on_grid(its, frame.windows[size_t(layer)], quad(i), part(i, f)).deepest;
   }
 
   /// Visits (at, layer, list) for each texel of each grid.
@@ -188,7 +191,7 @@ std::vector<glm::ivec2> texels_along_view(const Built& built, size_t i, int coun
 std::vector<glm::ivec2> covering_texels(const Built& built, size_t i, int most) {
   const shared::Cover cover =
       shared::make_cover(shared::project_quad(built.face_light(i), built.window(i), built.quad(i)), 1.0f,
-                         built.window(i).guard.x + 0.001f, shared::last_texel(built.window(i)), most);
+                         built.guard(i) + 0.001f, shared::last_texel(built.window(i)), most);
   const glm::vec2 axis = view_axis(built, i);
   const glm::vec3 ends = glm::abs(built.grid_position(i, axis) - built.grid_position(i, -axis));
   if (cover.rows.count < cover.rows.needed && std::max(ends.x, ends.y) > 0.5f * cover.long_side)
@@ -250,7 +253,7 @@ TEST(IzbBuild, ApproximateInsertionPutsNodesWhereItSays) {
           const glm::vec2 p(built.grid_position(i, o));
           EXPECT_TRUE(std::any_of(texels.begin(), texels.end(), [&](const glm::ivec2& texel) {
             const glm::vec2 d = glm::abs(p - (glm::vec2(texel) + 0.5f));
-            return std::max(d.x, d.y) <= 1.0f + built.window(i).guard.x;
+            return std::max(d.x, d.y) <= 1.0f + built.guard(i);
           })) << i;
         }
       }
@@ -341,7 +344,7 @@ TEST(IzbBuild, ExactInsertionPutsANodeIntoEachTexelThatTheMicroQuadTouchesAndInt
       const std::array<glm::dvec2, 4> quad = corners_in_double(built, i);
       for (const Place& place : places[i]) {
         ASSERT_EQ(place.layer, built.layer(i)) << i;
-        ASSERT_TRUE(meets(quad, place.texel, double(built.window(i).guard.x) + 0.002)) << i;
+        ASSERT_TRUE(meets(quad, place.texel, double(built.guard(i)) + 0.002)) << i;
       }
       glm::dvec2 low = quad[0], high = quad[0];
       for (const glm::dvec2& corner : quad) low = glm::min(low, corner), high = glm::max(high, corner);

@@ -62,7 +62,7 @@ struct Slots {
 void insert_part(int layer, LightFrame face, LightWindow window, MicroQuad quad, QuadPart part_of_quad, Slots slots) {
   QuadOnGrid on_grid = part_on_grid(face, window, quad, part_of_quad);
   const int all = 0x7fff;
-  Cover cover = make_cover(on_grid, 0.5, window.guard.x + 0.001, last_texel(window), all);
+  Cover cover = make_cover(on_grid, 0.5, quad_guard(window, part_of_quad) + 0.001, last_texel(window), all);
   int count = 0;
   for (int i = 0; i < cover.rows.count; ++i)
     count += cover_row(cover, run_texel(cover.rows, i, cover.last), all).count;
@@ -101,6 +101,7 @@ struct Place {
   LightWindow window;
   int layer;
   float depth;  // of the deepest point
+  float guard;  // texels by which they may be off
   bool whole;   // all of the micro-quad goes there
 };
 
@@ -163,7 +164,7 @@ int nodes_by_view(ivec2 px, MicroQuad quad) {
 #ifdef COVER
 void insert_cover(Place at, MicroQuad quad, QuadOnGrid on_grid, inout Slots slots) {
   int room = most_nodes - slots.used;
-  Cover cover = make_cover(on_grid, dilation, at.window.guard.x + 0.001, last_texel(at.window), room);
+  Cover cover = make_cover(on_grid, dilation, at.guard + 0.001, last_texel(at.window), room);
   // Too long for it: the paper's row samples better, where it runs along the long axis.
   vec2 axis = view_axis(quad);
   vec2 ends = abs(grid_position(at.window, micro_quad_uvd(at.face, quad, axis)).xy -
@@ -182,7 +183,7 @@ void insert_cover(Place at, MicroQuad quad, QuadOnGrid on_grid, inout Slots slot
 
 void insert_part(int layer, LightFrame face, LightWindow window, MicroQuad quad, QuadPart part, inout Slots slots) {
   QuadOnGrid on_grid = part_on_grid(face, window, quad, part);
-  Place at = Place(face, window, layer, on_grid.deepest, part.whole);
+  Place at = Place(face, window, layer, on_grid.deepest, quad_guard(window, part), part.whole);
 #if defined(BY_SAMPLES)
   insert_samples(at, quad, slots);
 #elif defined(BY_VIEW)

@@ -1,5 +1,7 @@
 #version 450 core
 #extension GL_NV_geometry_shader_passthrough : require
+// Without this NVIDIA's linker (580.159) asks a core profile's passthrough shader for max_vertices, and refuses it with them.
+#extension GL_EXT_geometry_shader4 : enable
 // 5.5 Hardware conservative rasterisation (7): positions pass through, the vertices for the test go along once a triangle.
 // LAYERS: into the first of `layers`, since such a shader makes one triangle of one.
 layout(triangles) in;
