@@ -222,7 +222,8 @@ TEST(Izb32, TheGBuffersMicroQuadIsTheSharedTexts) {
     const glm::vec4 seen = frame.gbuffer.micro_quad[i];
     const glm::vec4 made = shared::micro_quad_data(frame.inputs.camera, frame.gbuffer.center_px(i),
                                                    frame.gbuffer.eye_distance[i], v[0], v[1], v[2]);
-    for (int k = 0; k < 4; ++k) EXPECT_FLOAT_EQ(seen[k], made[k]) << i;
+    // GLSL lets a driver divide and take roots less exactly than C++: seen on NVIDIA, 2e-6 of an offset.
+    for (int k = 0; k < 4; ++k) EXPECT_NEAR(seen[k], made[k], 4e-6f * std::max(1.0f, std::abs(made[k]))) << i;
   }
 }
 

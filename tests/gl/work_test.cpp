@@ -68,7 +68,9 @@ TEST(Work, AddsUpToTheCounts) {
 
 TEST(Work, OfOneSampleAddsUpWithRemovalToo) {
   const Work work(tangle(80, 300), sun(130, 35), {{"grid", "64"}});
-  EXPECT_EQ(sum(work.tests), work.frame.count("visibility_tests"));
+  // On a GPU a list's walks meet others' removals at another moment each time: seen, 1 % apart.
+  const double tests = double(work.frame.count("visibility_tests"));
+  EXPECT_NEAR(double(sum(work.tests)), tests, capabilities().software ? 0.0 : 0.05 * tests);
   EXPECT_EQ(sum(work.fragments), work.frame.count("fragments_after_zcull"));
   EXPECT_GT(work.frame.count("nodes_removed"), 100u);
 }
@@ -76,6 +78,24 @@ TEST(Work, OfOneSampleAddsUpWithRemovalToo) {
 TEST(Work, WithoutZCullIsThatOfAllFragments) {
   const Work work(tangle(80, 300), sun(130, 35), {{"grid", "64"}, {"zcull", "off"}, {"spp", "32"}});
   EXPECT_EQ(sum(work.fragments), work.frame.count("fragments"));
+}
+
+// A wall seen edge-on beside a lamp: a micro-quad of it nearly reaches the light's plane and is wrong by texels. The
+// floor's must not pay for that.
+TEST(Work, OfAMicroQuadThatNearlyReachesTheLightIsItsOwn) {
+  Scene floor = empty_scene();
+  add_soup(floor, floor_of(20.0f, 4));
+  const glm::vec3 eye(4.0f, 5.0f, 7.0f), ahead = glm::normalize(glm::vec3(0.0f, 0.6f, 0.0f) - eye);
+  const glm::vec3 up(0.0f, 1.0f, 0.0f), aside = glm::normalize(glm::cross(ahead, up));
+  Scene with_wall = floor;
+  add_soup(with_wall, rectangle(eye + 0.05f * aside + 1.0f * ahead - 2.0f * up, 7.0f * ahead, 4.0f * up));
+  const Light lamp = point_light(glm::dvec3(eye + 2.5f * ahead));
+  const auto nodes = [&](const Scene& scene) {
+    const Work work(scene, lamp, {{"insertion", "exact"}, {"spp", "32"}});
+
+    return double(work.frame.count("nodes")) / double(receivers(work.frame));
+  };
+  EXPECT_LT(nodes(with_wall), 1.2 * nodes(floor));  // 9.0 and 8.7; with one guard for all 17.0
 }
 
 TEST(Work, OfATechniqueWithoutListsIsNone) {
