@@ -187,7 +187,7 @@ glm::dvec3 parse_vector(const std::string& option, const std::string& text) {
   return {n[0], n[1], n[2]};
 }
 
-OptionSet FrameOptions::options() {
+OptionSet FrameOptions::options(bool with_technique) {
   OptionSet set;
   set.text("size", size, "WIDTHxHEIGHT", "size of the picture in pixels");
   set.text("camera", camera, "NAME|INDEX",
@@ -218,11 +218,12 @@ OptionSet FrameOptions::options() {
            "an animation of the scene, or several with semicolons between them, or all; with --time alone its first");
   set.flag("loop", loop, "an animation begins again at its end");
   set.text("views", views, "FILE", "the views file");
-  set.choice("technique", technique, technique_names(), "the shadow technique; its own options are listed below");
-  set.text(
-      "preset", preset, "NAME",
-      "the technique's options as a whole, others on the command line still count: izb has paper (table 1), exact, and "
-      "fast, which leaks a little");
+  if (with_technique) {
+    set.choice("technique", technique, technique_names(), "the shadow technique; its own options are listed below");
+    set.text("preset", preset, "NAME",
+             "the technique's options as a whole, others on the command line still count: izb has paper (table 1), "
+             "exact, and fast, which leaks a little");
+  }
   set.choice("context", context, gpu::context_names(), "how to get an OpenGL 4.5 context");
   return set;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `render` and `validate` have in common on the command line: which frame, by which technique.
+// What the commands that render have in common on the command line: which frame, by which technique.
 #pragma once
 #include <memory>
 #include <optional>
@@ -29,8 +29,8 @@ struct FrameOptions {
   std::string preset;
   std::string context = "auto";
 
-  /// Declares them; `technique` and `context` choices come from the registries.
-  OptionSet options();
+  /// Declares them; `technique` and `context` choices come from the registries. Without the technique: nor its preset.
+  OptionSet options(bool with_technique = true);
   /// Whether the scene's animations play; they do not: at rest.
   bool plays() const;
 };

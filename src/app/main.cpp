@@ -21,6 +21,7 @@ int run(int argc, char** argv) {
   const std::pair<const char*, izb::Command> commands[] = {
       {"render", izb::add_render(app, arguments)},
       {"validate", izb::add_validate(app, arguments)},
+      {"compare", izb::add_compare(app, arguments)},
       {"view", izb::add_view(app, arguments)},
       {"info", izb::add_info(app)},
       {"scene", izb::add_scene(app)},

@@ -41,12 +41,6 @@ void add_camera(Image& image, const RenderedFrame& rendered) {
   image.attributes["worldToNDC"] = floats_of(upper_left * clip * view);
 }
 
-/// What the channels of a light are called after the first word: nothing where there is one light.
-std::string suffix_of(const RenderedFrame& rendered, size_t light) {
-  if (rendered.frame.lights.size() == 1) return {};
-  return "." + layer_name(rendered.frame.lights[light].name);
-}
-
 void add_light(Image& image, const Light& light, const std::string& suffix) {
   const auto triple = [](const glm::dvec3& v) { return std::array<float, 3>{float(v.x), float(v.y), float(v.z)}; };
   const std::string prefix = "light" + suffix + ".";
@@ -63,12 +57,18 @@ void add_light(Image& image, const Light& light, const std::string& suffix) {
 
 }  // namespace
 
+nlohmann::json origin_json(const Arguments& arguments) {
+  return {{"command", command_line(arguments)}, {"version", fmt::format("{} ({})", version(), commit())}};
+}
+
+std::string channel_suffix(std::span<const Light> lights, size_t light) {
+  return lights.size() == 1 ? std::string() : "." + layer_name(lights[light].name);
+}
+
 nlohmann::json provenance(const RenderedFrame& rendered, const FrameOptions& options, const Arguments& arguments,
                           const std::string& scene_path) {
   FrameOptions copy = options;
-  nlohmann::json facts;
-  facts["command"] = command_line(arguments);
-  facts["version"] = fmt::format("{} ({})", version(), commit());
+  nlohmann::json facts = origin_json(arguments);
   facts["gl"] = {{"context", rendered.gl.context.name},
                  {"vendor", rendered.gl.capabilities.vendor},
                  {"renderer", rendered.gl.capabilities.renderer},
@@ -129,7 +129,7 @@ Image frame_image(const RenderedFrame& rendered, const nlohmann::json& facts) {
   plane("normal.Y", [&](size_t i) { return normals[i].y; });
   plane("normal.Z", [&](size_t i) { return normals[i].z; });
   for (size_t light = 0; light < rendered.renderer.light_count(); ++light) {
-    const std::string suffix = suffix_of(rendered, light);
+    const std::string suffix = channel_suffix(rendered.frame.lights, light);
     std::vector<uint32_t> mask = rendered.renderer.read_mask(light);
     plane("visibility" + suffix, [&](size_t i) { return 1.0f - float(std::popcount(mask[i])) / 32.0f; });
     if (std::vector<float> lengths = rendered.renderer.list_lengths(light); !lengths.empty())

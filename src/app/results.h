@@ -11,6 +11,9 @@
 
 namespace izb {
 
+/// `command` and `version`: how any result came about.
+nlohmann::json origin_json(const Arguments& arguments);
+
 /// How a result came about: command line, version, GL strings, options, scene. The same keys in every JSON.
 nlohmann::json provenance(const RenderedFrame& rendered, const FrameOptions& options, const Arguments& arguments,
                           const std::string& scene_path);
@@ -20,6 +23,9 @@ std::string mask_hash(std::span<const std::vector<uint32_t>> masks);
 
 /// `mask_hash` of all masks of the last frame, `lights` (name, type, mask_hash), and `exposure`.
 nlohmann::json masks_json(const RenderedFrame& rendered);
+
+/// What the channels of a light are called after the first word: nothing where there is one light.
+std::string channel_suffix(std::span<const Light> lights, size_t light);
 
 /// The last frame as channels R G B, depth, normal.X/Y/Z, and of its light mask, visibility, list_length (where the
 /// technique has lists): of several lights mask.NAME and so on. With the standard attributes worldToCamera and

@@ -13,7 +13,7 @@ TEST(Help, NamesEveryCommand) {
   const Outcome outcome = izb::test::izb({"--help"});
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.err, "");
-  for (const char* command : {"render", "validate", "info", "scene", "--version"})
+  for (const char* command : {"render", "validate", "compare", "info", "scene", "--version"})
     EXPECT_TRUE(outcome.prints(command)) << command;
 }
 
@@ -55,6 +55,38 @@ TEST(Help, ValidateIsComplete) {
   const std::string help = help_of({"validate"});
   expect_options(help, frame_options);
   expect_options(help, {"--json", "--heatmap", "--grid", "--zcull", "--nl-cull"});
+}
+
+TEST(Help, CompareIsComplete) {
+  const std::string help = help_of({"compare"});
+  expect_options(help, {"--truth",
+                        "--json",
+                        "--error-map",
+                        "--channels",
+                        "--exposure",
+                        "--ppd",
+                        "--max-flip",
+                        "--max-rmse",
+                        "--min-psnr",
+                        "--min-ssim",
+                        "--max-differing-bits",
+                        "--max-leaks",
+                        "--max-false-shadow",
+                        "--max-coverage-error",
+                        "--max-unexplained",
+                        "--max-difference",
+                        "--size",
+                        "--camera",
+                        "--eye",
+                        "--light",
+                        "--sun",
+                        "--spp",
+                        "--samples",
+                        "--nl-cull",
+                        "--context"});
+  for (const char* text : {"67.0206", "pixels per degree", "stops", "percent", "Exit code 1"})
+    EXPECT_NE(help.find(text), std::string::npos) << text << "\n" << help;
+  EXPECT_EQ(help.find("--technique"), std::string::npos);
 }
 
 TEST(Help, InfoAndSceneAreComplete) {
