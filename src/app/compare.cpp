@@ -160,8 +160,7 @@ Command add_compare(CLI::App& app, const Arguments& arguments) {
   sub->add_option("FILE", o->files,
                   "OpenEXR or PNG, of whatever program: the reference and the one to judge, of the same size; with "
                   "--truth the one to judge alone")
-      ->required()
-      ->expected(1, 2);
+      ->required();
   OptionSet truth;
   truth.text("truth", o->truth, "SCENE",
              "judge the masks of an OpenEXR file against the ray-traced truth of this .gltf or .glb file, as izb "

@@ -47,7 +47,7 @@ DisplayImage to_display(const StoredImage& stored, double exposure_stops) {
   for (size_t c = 0; c < 3; ++c) {
     display.rgb[c] = stored.image.floats(component_names[c]);
     if (!stored.linear) continue;
-    for (float& value : display.rgb[c]) value = linear_to_srgb(clamp_to_display(scale * value));
+    for (float& value : display.rgb[c]) value = float(linear_to_srgb(double(clamp_to_display(scale * value))));
   }
   return display;
 }

@@ -42,7 +42,7 @@ Opponent to_opponent(const DisplayImage& image) {
   for (Plane& plane : out.planes) plane.resize(count);
   for (size_t i = 0; i < count; ++i) {
     Triple linear{};
-    for (size_t c = 0; c < 3; ++c) linear[c] = double(srgb_to_linear(image.rgb[c][i]));
+    for (size_t c = 0; c < 3; ++c) linear[c] = srgb_to_linear(double(image.rgb[c][i]));
     const Triple opponent = cie::xyz_to_opponent(cie::rgb_to_xyz(linear));
     for (size_t c = 0; c < 3; ++c) out.planes[c][i] = float(opponent[c]);
   }

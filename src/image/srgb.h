@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: MIT
-// The sRGB transfer function (IEC 61966-2-1).
+// The sRGB transfer function (IEC 61966-2-1), in the precision of its argument: in single precision 1 is encoded as
+// 0.99999994.
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 
 namespace izb {
 
 /// Linear light in [0, 1] to its sRGB code value in [0, 1].
-inline float linear_to_srgb(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+template <std::floating_point T>
+T linear_to_srgb(T linear) {
+  return linear <= T(0.0031308) ? T(12.92) * linear : T(1.055) * std::pow(linear, T(1) / T(2.4)) - T(0.055);
 }
 
 /// An sRGB code value in [0, 1] to linear light in [0, 1].
-inline float srgb_to_linear(float srgb) {
-  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+template <std::floating_point T>
+T srgb_to_linear(T srgb) {
+  return srgb <= T(0.04045) ? srgb / T(12.92) : std::pow((srgb + T(0.055)) / T(1.055), T(2.4));
 }
 
 /// Light clamped to what a display shows, [0, 1]. NaN becomes 0.

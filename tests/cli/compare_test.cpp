@@ -76,8 +76,8 @@ TEST_F(Compare, KnownPairsHaveTheirNumbers) {
     const nlohmann::json j = numbers({metric_file(pair.name + "_reference.png"), metric_file(pair.name + "_test.png")});
     const nlohmann::json color = j["color"][0];
     EXPECT_NEAR(color["flip_max"], pair.expected["flip_max"], 1e-5) << pair.name;
-    EXPECT_NEAR(color["rmse"], pair.expected["rmse"], 1e-8) << pair.name;
-    EXPECT_NEAR(color["ssim"], pair.expected["ssim"], 1e-8) << pair.name;
+    EXPECT_NEAR(color["rmse"], pair.expected["rmse"], 2e-8) << pair.name;
+    EXPECT_NEAR(color["ssim"], pair.expected["ssim"], 2e-8) << pair.name;
     EXPECT_EQ(color["psnr_db"].is_null(), pair.name == "same");
     EXPECT_EQ(j["channels"], (Words{"B", "G", "R"}));
     EXPECT_EQ(j["reference"]["format"], "PNG");
@@ -350,7 +350,7 @@ TEST_F(Compare, WrongUsageIsRefused) {
   const std::string good = exr("good.exr", image_of(4, 3, grey));
   expect_refused(compare({good}), "two files", 2);
   expect_refused(compare({}), "FILE", 2);
-  expect_refused(compare({good, good, good}), "good.exr", 2);
+  expect_refused(compare({good, good, good}), "two files", 2);
   expect_refused(compare({good, good, "--sun", "0,45"}), "--truth", 2);
   expect_refused(compare({good, good, "--spp", "1"}), "--truth", 2);
   expect_refused(compare({good, good, "--error-map", output / "map.jpg"}), ".png or .exr", 2);
