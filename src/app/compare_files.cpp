@@ -65,6 +65,7 @@ Names chosen_names(const Side& side, const std::string& text) {
   Names names = color_names;
   if (text != "color") {
     const std::vector<std::string> parts = list_of(text);
+    if (parts.empty()) throw UsageError("--channels names no channel");
     names = {parts.begin(), parts.end()};
   }
   for (const std::string& name : names)

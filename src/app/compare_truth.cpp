@@ -38,8 +38,8 @@ std::string channel_names(const Image& image) {
 const std::vector<uint32_t>& mask_of(const Image& image, const std::string& path, const std::string& name) {
   const Channel* const channel = image.find(name);
   const auto* words = channel ? std::get_if<std::vector<uint32_t>>(&channel->data) : nullptr;
-  if (!words)
-    fail("'{}' has no channel '{}' of unsigned integers; its channels are {}", path, name, channel_names(image));
+  if (!channel) fail("'{}' has no channel '{}', but {}", path, name, channel_names(image));
+  if (!words) fail("channel '{}' of '{}' holds floats, but a mask is of unsigned integers, a bit a sample", name, path);
   return *words;
 }
 

@@ -114,8 +114,8 @@ std::vector<std::string> broken_limits(const Comparison& comparison, std::span<c
       checked = true;
       if (limit.is_least ? *value >= limit.value : *value <= limit.value) continue;
       holds = false;
-      sentences.push_back(fmt::format("{}: {} is {}, {} --{} {}", object["name"].get<std::string>(), limit.key, *value,
-                                      limit.is_least ? "below" : "above", limit.option, limit.value));
+      sentences.push_back(fmt::format("{}: {} is {:.9g}, {} --{} {}", object["name"].get<std::string>(), limit.key,
+                                      *value, limit.is_least ? "below" : "above", limit.option, limit.value));
     }
     if (!checked)
       throw UsageError(

@@ -34,7 +34,7 @@ Triple from_chromaticity(double x, double y) {
 }
 
 struct Srgb {
-  Triple white = from_chromaticity(0.3127, 0.3290);
+  Triple white = from_chromaticity(0.31271, 0.32902);
   Matrix xyz_from_rgb{}, rgb_from_xyz{};
 
   Srgb() {

@@ -22,7 +22,7 @@ struct StoredImage {
 };
 
 /// Reads OpenEXR (linear light, see read_exr) or PNG (channels R, G, B and, if there, A: the 8-bit codes divided by
-/// 255), whatever the file's name. Throws izb::Error if it is neither, or as read_exr and read_png do.
+/// 255), whatever the file's name. Throws izb::Error if it is neither or a device, or as read_exr and read_png do.
 StoredImage read_image(const std::filesystem::path& path);
 
 /// The channels R, G and B on a display: linear light is multiplied by 2^exposure_stops, clamped to [0, 1] and encoded;

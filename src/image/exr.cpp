@@ -54,8 +54,7 @@ class MemoryOutput : public Imf::OStream {
 
 class MemoryInput : public Imf::IStream {
  public:
-  MemoryInput(const std::string& name, const std::vector<std::byte>& bytes)
-      : Imf::IStream(name.c_str()), bytes_(bytes) {}
+  MemoryInput(const std::string& name, std::span<const std::byte> bytes) : Imf::IStream(name.c_str()), bytes_(bytes) {}
   bool read(char* target, int count) override {
     if (position_ > bytes_.size() || size_t(count) > bytes_.size() - position_) {
       throw std::runtime_error("the file ends too early");
@@ -68,7 +67,7 @@ class MemoryInput : public Imf::IStream {
   void seekg(uint64_t position) override { position_ = position; }
 
  private:
-  const std::vector<std::byte>& bytes_;
+  std::span<const std::byte> bytes_;
   size_t position_ = 0;
 };
 
@@ -234,13 +233,16 @@ void write_exr(AtomicFile& file, const Image& image, const ExrOptions& options) 
 }
 
 Image read_exr(const std::filesystem::path& path) {
-  const std::vector<std::byte> bytes = read_binary_file(path);
+  return read_exr(read_binary_file(path), path.string());
+}
+
+Image read_exr(std::span<const std::byte> bytes, const std::string& name) {
   use_all_cores();
-  MemoryInput stream(path.string(), bytes);
+  MemoryInput stream(name, bytes);
   try {
     return decode(stream);
   } catch (const std::exception& error) {
-    fail("cannot read '{}' as OpenEXR: {}", path.string(), cause_of(error, path.string()));
+    fail("cannot read '{}' as OpenEXR: {}", name, cause_of(error, name));
   }
 }
 

@@ -7,7 +7,10 @@
 //   negated); worldToNDC     x right, y DOWN, (0, 0) and (1, 1) at the upper left and lower right corners of
 //   the picture.
 #pragma once
+#include <cstddef>
 #include <filesystem>
+#include <span>
+#include <string>
 
 #include "image/image.h"
 
@@ -32,6 +35,9 @@ void write_exr(AtomicFile& file, const Image& image, const ExrOptions& options =
 /// the attributes of the types in Attribute, but for those that OpenEXR itself requires of each file. Throws
 /// izb::Error if the file is missing, is no OpenEXR file, is truncated, or has subsampled channels.
 Image read_exr(const std::filesystem::path& path);
+
+/// The same from the bytes of a file; `name` is for messages.
+Image read_exr(std::span<const std::byte> bytes, const std::string& name);
 
 /// Its attributes alone, without reading the pixels.
 std::map<std::string, Attribute> read_exr_attributes(const std::filesystem::path& path);

@@ -45,7 +45,7 @@ double rmse(const DisplayImage& reference, const DisplayImage& test) {
 }
 
 double psnr_db(double rmse) {
-  return -20.0 * std::log10(rmse);
+  return 0.0 - 20.0 * std::log10(rmse);  // not -0 for 1
 }
 
 std::vector<double> luma(const DisplayImage& image) {

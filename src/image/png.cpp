@@ -47,23 +47,25 @@ void write_png(AtomicFile& file, const Image8& picture) {
 }
 
 Image8 read_png(const std::filesystem::path& path) {
-  const std::vector<std::byte> bytes = read_binary_file(path);
+  return read_png(read_binary_file(path), path.string());
+}
+
+Image8 read_png(std::span<const std::byte> bytes, const std::string& name) {
   PngImage png;
   if (!png_image_begin_read_from_memory(&png.state, bytes.data(), bytes.size())) {
-    fail("cannot read '{}' as PNG: {}", path.string(), png.state.message);
+    fail("cannot read '{}' as PNG: {}", name, png.state.message);
   }
   Image8 picture;
   picture.width_px = int(png.state.width), picture.height_px = int(png.state.height);
   picture.components = png.state.format & PNG_FORMAT_FLAG_ALPHA ? 4 : 3;
   const size_t size = size_t(picture.width_px) * size_t(picture.height_px) * size_t(picture.components);
   if (size > std::numeric_limits<uint32_t>::max()) {
-    fail("cannot read '{}' as PNG: its size, {} x {} pixels, is too large", path.string(), picture.width_px,
-         picture.height_px);
+    fail("cannot read '{}' as PNG: its size, {} x {} pixels, is too large", name, picture.width_px, picture.height_px);
   }
   png.state.format = picture.components == 4 ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
   picture.pixels.resize(size);
   if (!png_image_finish_read(&png.state, nullptr, picture.pixels.data(), 0, nullptr)) {
-    fail("cannot read '{}' as PNG: {}", path.string(), png.state.message);
+    fail("cannot read '{}' as PNG: {}", name, png.state.message);
   }
   return picture;
 }

@@ -311,6 +311,9 @@ TEST_F(CompareTruth, WhatDoesNotFitIsRefused) {
   expect_refused(compare({"--truth", scene, mask, mask}), "one file", 2);
   expect_refused(compare({"--truth", folder / "absent.glb", mask}), "absent.glb");
   expect_refused(compare({"--truth", scene, metric_file("leak_test.png")}), "PNG");
+  izb::Image floats = image_of(64, 36, {{"mask", 1.0f}});
+  izb::write_exr(mask, floats);
+  expect_refused(judge(), "holds floats");
 }
 
 // ---- what is wrong
@@ -327,6 +330,8 @@ TEST_F(Compare, WrongFilesAreRefused) {
   expect_refused(compare({good, exr("wide.exr", image_of(5, 3, grey))}), "4 x 3 pixels");
   expect_refused(compare({good, exr("grey.exr", image_of(4, 3, {{"Y", 0.2f}}))}), "only '" + good + "' has B, G, R");
   expect_refused(compare({good, good, "--channels", "Q"}), "no channel 'Q', but B, G, R");
+  expect_refused(compare({good, good, "--channels", ""}), "--channels", 2);
+  expect_refused(compare({good, "/dev/zero"}), "device");
   expect_refused(compare({good, good, "--channels", "masks"}), "unsigned integers");
   const std::string ints = exr("ints.exr", mask_image({1, 2})),
                     floats = exr("floats.exr", image_of(2, 1, {{"mask", 1}}));

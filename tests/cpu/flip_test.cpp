@@ -16,8 +16,14 @@ namespace {
 using namespace izb::test;
 using izb::flip;
 
-/// The authors' program works in single precision and prints six digits.
-constexpr double printed = 1e-5;
+/// The authors' program prints six digits, 5e-7, and both keep planes in single precision.
+constexpr double printed = 1e-6;
+
+/// Where an image is plain, rounding is all that is left of its features, and the exponent 0.5 makes much of it: 9.5e-8
+/// in a feature would give the authors' 0.967388 instead of 0.967380, which the formulas have without any.
+double tolerance(const KnownPair& pair) {
+  return pair.name == "black" ? 1e-5 : printed;
+}
 
 TEST(Flip, IsTheAuthorsOnKnownPairs) {
   for (const KnownPair& pair : known_pairs()) {
@@ -27,8 +33,8 @@ TEST(Flip, IsTheAuthorsOnKnownPairs) {
     const float sum = std::accumulate(errors.begin(), errors.end(), 0.0f);
     EXPECT_NEAR(sum / float(errors.size()), pair.expected["flip_mean"], printed) << pair.name;
     EXPECT_NEAR(pooled.mean, pair.expected["flip_mean"], 1e-4) << pair.name;
-    EXPECT_NEAR(pooled.weighted_median, pair.expected["flip_weighted_median"], printed) << pair.name;
-    EXPECT_NEAR(pooled.max, pair.expected["flip_max"], printed) << pair.name;
+    EXPECT_NEAR(pooled.weighted_median, pair.expected["flip_weighted_median"], tolerance(pair)) << pair.name;
+    EXPECT_NEAR(pooled.max, pair.expected["flip_max"], tolerance(pair)) << pair.name;
   }
 }
 
@@ -59,7 +65,7 @@ TEST(Flip, KnowsNoBorderAndNoSmallestImage) {
   // One pixel, and sides far below the filters' radius.
   for (const auto& [width, height] : {std::pair{1, 1}, {1, 40}, {40, 1}, {3, 2}}) {
     const std::vector<float> errors = flip(plain(width, height, 1, 1, 1), plain(width, height, 0, 0, 0));
-    for (const float error : errors) ASSERT_NEAR(error, 0.967388f, 1e-5f) << width << " x " << height;
+    for (const float error : errors) ASSERT_NEAR(error, 0.967380f, 1e-6f) << width << " x " << height;
   }
   EXPECT_THROW(flip(plain(2, 3, 0, 0, 0), plain(3, 2, 0, 0, 0)), std::logic_error);
 }

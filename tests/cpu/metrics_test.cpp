@@ -28,6 +28,11 @@ TEST(Metrics, AreThoseOfOtherProgramsOnKnownPairs) {
   }
 }
 
+TEST(Metrics, PsnrOfTheLargestErrorIsZeroWithoutASign) {
+  EXPECT_EQ(izb::psnr_db(1.0), 0.0);
+  EXPECT_FALSE(std::signbit(izb::psnr_db(1.0)));
+}
+
 TEST(Metrics, SsimNeedsAWindow) {
   EXPECT_FALSE(izb::ssim(plain(10, 40, 0, 0, 0), plain(10, 40, 0, 0, 0)).has_value());
   EXPECT_FALSE(izb::ssim(plain(40, 10, 0, 0, 0), plain(40, 10, 0, 0, 0)).has_value());
