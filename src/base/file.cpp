@@ -24,6 +24,8 @@ template <typename Bytes>
 Bytes read_file(const fs::path& path) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) fail("cannot read '{}': it is a directory", path.string());
+  // /dev/zero and the like never end.
+  if (fs::is_character_file(path, ignored)) fail("cannot read '{}': it is a device", path.string());
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (!file) fail("cannot read '{}': {}", path.string(), std::strerror(errno));
 

@@ -11,7 +11,7 @@
 
 namespace izb {
 
-/// All bytes of a file. Throws izb::Error if it is missing, a directory or unreadable.
+/// All bytes of a file. Throws izb::Error if it is missing, a directory, a device or unreadable.
 std::vector<std::byte> read_binary_file(const std::filesystem::path& path);
 
 /// The same as text; bytes are not converted.

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "frame/samples.h"
 
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <sstream>
 
 #include "base/error.h"
+#include "base/file.h"
 
 namespace izb {
 namespace {
@@ -45,8 +43,7 @@ SamplePattern hammersley_samples() {
 }
 
 SamplePattern read_samples(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) fail("cannot read the sample pattern '{}': {}", path, std::strerror(errno));
+  std::istringstream file(read_text_file(path));
   SamplePattern pattern{path, {}};
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {

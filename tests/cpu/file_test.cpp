@@ -64,6 +64,7 @@ TEST_F(Files, ReadingFailsInOneSentence) {
             "cannot read '" + missing + "': No such file or directory");
   EXPECT_EQ(error_of([&] { izb::read_binary_file(folder); }),
             "cannot read '" + folder.string() + "': it is a directory");
+  EXPECT_EQ(error_of([&] { izb::read_text_file("/dev/zero"); }), "cannot read '/dev/zero': it is a device");
 }
 
 TEST_F(Files, WritingFailsInOneSentence) {
