@@ -73,7 +73,6 @@ void Izb::resize_grids(int layers) {
   const IzbSettings& s = built_;
   if (heads_.become_array("izb heads", GL_R32UI, s.grid, s.grid, layers) || s.zcull != static_cast<bool>(depth_)) {
     light_framebuffer_ = gpu::Framebuffer();
-    zcull_framebuffers_.clear();
     furthest_ = gpu::Texture();
     depth_ = gpu::Texture();
     pyramid_ = gpu::Texture();
@@ -81,8 +80,6 @@ void Izb::resize_grids(int layers) {
   if (s.zcull && !depth_) {
     furthest_ = gpu::Texture::array("izb furthest", GL_R32UI, s.grid, s.grid, layers);
     depth_ = gpu::Texture::array("izb z-cull", GL_DEPTH_COMPONENT16, s.grid, s.grid, layers);
-    for (int layer = 0; layer < layers; ++layer)
-      zcull_framebuffers_.push_back(gpu::Framebuffer::depth_layer("izb z-cull", depth_, layer));
   }
   if (!s.pyramid()) {
     pyramid_ = gpu::Texture();
@@ -181,13 +178,10 @@ void Izb::zcull(int layers) {
   glDepthFunc(GL_ALWAYS);
   glDepthMask(GL_TRUE);
   glBindTextureUnit(UNIT_FURTHEST, furthest_.name());
+  glBindFramebuffer(GL_FRAMEBUFFER, light_framebuffer_.name());
   glBindVertexArray(no_attributes_.name());
   programs_[IzbProgram::zcull].use();
-  for (int layer = 0; layer < layers; ++layer) {
-    glBindFramebuffer(GL_FRAMEBUFFER, zcull_framebuffers_[static_cast<size_t>(layer)].name());
-    glUniform1i(0, layer);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-  }
+  glDrawArraysInstanced(GL_TRIANGLES, 0, 3, layers);
   glDisable(GL_DEPTH_TEST);
 }
 

@@ -87,7 +87,6 @@ class Izb final : public Technique {
   gpu::Texture depth_;     ///< the same as a depth buffer
   gpu::Texture pyramid_;   ///< the same for squares of texels, see shared/pyramid.h
   gpu::Framebuffer light_framebuffer_;
-  std::vector<gpu::Framebuffer> zcull_framebuffers_;
   gpu::VertexArray no_attributes_;
   gpu::Buffer counters_, pairs_, pool_counter_;
   gpu::BufferTexture table_;

@@ -106,7 +106,8 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
     case IzbProgram::count_nodes:
       return build(true);
     case IzbProgram::zcull:
-      return {"izb zcull", {folder + "4_zcull.vert.glsl", folder + "4_zcull.frag.glsl"}, {}};
+      return {
+          "izb zcull", {folder + "4_zcull.vert.glsl", folder + "4_zcull.geom.glsl", folder + "4_zcull.frag.glsl"}, {}};
     case IzbProgram::pyramid_first:
       define(true, "FIRST_LEVEL");
       [[fallthrough]];
