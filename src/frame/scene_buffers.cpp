@@ -69,10 +69,13 @@ int levels_of(const Texture& t) {
 }
 
 /// llvmpipe bins triangles faster than it rasterises them and keeps all that wait, a few hundred bytes each: of ten
-/// million that was 2 GB. Where that counts, drawing waits for what was drawn two steps before.
+/// million that was 2 GB. Where that counts, drawing waits for what was drawn two steps before. Where frames are given
+/// up between draws, every draw is waited for: llvmpipe keeps what a draw had read and drawn to until it next has as
+/// many draws in flight, which for a person who tries everything adds up to a gigabyte of grids that are long gone.
 class Throttle {
  public:
-  Throttle(bool active, uint64_t step_triangles) : active_(active), step_triangles_(step_triangles) {}
+  Throttle(bool active, uint64_t step_triangles, bool lags)
+      : active_(active), step_triangles_(step_triangles), lags_(lags) {}
   ~Throttle() {
     for (const GLsync fence : fences_)
       if (fence) glDeleteSync(fence);
@@ -84,6 +87,7 @@ class Throttle {
     waiting_ += triangles;
     if (!active_ || waiting_ < step_triangles_) return;
     waiting_ = 0;
+    if (!lags_) return glFinish();
     if (fences_[0]) {
       glClientWaitSync(fences_[0], GL_SYNC_FLUSH_COMMANDS_BIT, GL_TIMEOUT_IGNORED);
       glDeleteSync(fences_[0]);
@@ -96,6 +100,7 @@ class Throttle {
  private:
   const bool active_;
   const uint64_t step_triangles_;
+  const bool lags_;
   uint64_t waiting_ = 0;
   GLsync fences_[2] = {nullptr, nullptr};
 };
@@ -196,7 +201,7 @@ void SceneBuffers::draw(Drawn drawn, bool with_textures) const {
   bind_storage();
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
-  Throttle throttle(throttled_, between_draws ? 1 : largest_part_triangles);
+  Throttle throttle(throttled_, between_draws ? 1 : largest_part_triangles, !between_draws);
   const auto draw_commands = [](uint32_t first, uint32_t count) {
     glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
                                 reinterpret_cast<const void*>(uintptr_t(first) * sizeof(DrawCommand)),

@@ -104,7 +104,7 @@ void Painter::probe(const glm::ivec2& px) {
 bool Painter::works() const {
   const std::scoped_lock lock(mutex_);
   return busy_ || tracing_ || traced_ || loading_ >= 0.0f || !jobs_.empty() || probe_px_ || frame_ || probed_ ||
-         shaders_ || !written_.empty();
+         shaders_ || !written_.empty() || (latest_ && !is_painted());
 }
 
 template <typename T>
@@ -168,7 +168,7 @@ void Painter::run() {
       say(true, "not enough memory");
     } catch (const std::exception& e) {  // a bug: the program goes on, and says so
       say(true, fmt::format("unexpected failure: {}", e.what()));
-      refined_ = painted_;
+      refined_ = painted_.load();
     }
     check_gl();
     busy_ = false;
@@ -187,8 +187,13 @@ void Painter::wait_for_work() {
   work_.wait(lock, [&] {
     if (quit_ || !jobs_.empty() || traced_) return true;
     if (probe_px_ && is_settled()) return true;
-    return latest_ && open_ && (latest_->serial != painted_ || (!latest_->motion && refined_ != painted_));
+    return latest_ && open_ && !is_painted();
   });
+}
+
+// Whether nothing is left to do for the last request; the mutex is held.
+bool Painter::is_painted() const {
+  return latest_->serial == painted_ && (latest_->motion || refined_ == painted_);
 }
 
 // Whether the last request is painted as well as it will be; the mutex is held.
@@ -263,7 +268,7 @@ void Painter::do_load(const std::string& file, const FrameOptions& asked) {
     const std::scoped_lock lock(mutex_);
     latest_.reset();  // of the scene before
     probe_px_.reset();
-    painted_ = refined_ = 0;
+    painted_ = 0, refined_ = 0;
     facts_ = std::move(facts);
   } catch (...) {
     loading_ = -1.0f;

@@ -70,6 +70,7 @@ class Painter {
   void push(Job job);
   void run();
   void wait_for_work();
+  bool is_painted() const;
   bool settled() const;
   bool is_settled() const;
   bool interrupted() const;
@@ -107,7 +108,7 @@ class Painter {
   std::shared_ptr<const Snapshot> frozen_;
   std::optional<std::string> pose_;     ///< as the scene stands
   std::atomic<uint64_t> painting_ = 0;  ///< serial; 0: what is painted is not given up
-  uint64_t painted_ = 0, refined_ = 0;
+  std::atomic<uint64_t> painted_ = 0, refined_ = 0;
 
   TruthJob truth_;
   std::atomic<bool> tracing_ = false;

@@ -53,7 +53,7 @@ void Painter::do_reload() {
     if (flag.color == ShaderFlag::green) {
       sides_ = std::move(fresh);
       truth_side_.forget();
-      painted_ = refined_ = 0;
+      painted_ = 0, refined_ = 0;
     }
   }
   const std::scoped_lock lock(mutex_);
