@@ -5,6 +5,9 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace izb {
 namespace {
@@ -81,6 +84,12 @@ std::optional<uint64_t> process_memory() {
 std::optional<uint64_t> peak_process_memory() {
   const auto kilobytes = number_after("/proc/self/status", "VmHWM:");
   return kilobytes ? std::optional(*kilobytes * 1024) : std::nullopt;
+}
+
+void give_back_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 }  // namespace izb

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much main memory this process could still take.
+// The main memory of this process: what it holds, and how much more it could take.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -16,5 +16,9 @@ std::optional<uint64_t> process_memory();
 
 /// The most that this process has held so far, in bytes; nothing where the system does not say.
 std::optional<uint64_t> peak_process_memory();
+
+/// What was freed goes back to the system, where the C library keeps it otherwise: glibc's arenas hold blocks of up to
+/// 32 MiB for the next who asks.
+void give_back_freed_memory();
 
 }  // namespace izb

@@ -2,8 +2,10 @@
 #include "view/painter.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "base/error.h"
+#include "base/machine_memory.h"
 #include "scene/gltf.h"
 #include "view/difference.h"
 #include "view/opening.h"
@@ -20,6 +22,9 @@ constexpr uint32_t slow_part_triangles = 8192;
 
 constexpr double motion_scales[] = {1.0, 0.75, 0.5, 1.0 / 3.0, 0.25, 1.0 / 6.0, 0.125};
 constexpr double longest_motion_ms = 150.0;
+
+/// Before memory that views of the past took goes back to the system.
+constexpr auto idle = std::chrono::milliseconds(500);
 
 /// A layer that the grid has; the state may still name one of more cascades.
 int layer_for(const Look& look, const Snapshot& snapshot, int layer) {
@@ -184,11 +189,16 @@ void Painter::run() {
 
 void Painter::wait_for_work() {
   std::unique_lock lock(mutex_);
-  work_.wait(lock, [&] {
+  const auto has_work = [&] {
     if (quit_ || !jobs_.empty() || traced_) return true;
     if (probe_px_ && is_settled()) return true;
     return latest_ && open_ && !is_painted();
-  });
+  };
+  if (work_.wait_for(lock, idle, has_work)) return;
+  lock.unlock();
+  give_back_freed_memory();
+  lock.lock();
+  work_.wait(lock, has_work);
 }
 
 // Whether nothing is left to do for the last request; the mutex is held.
