@@ -11,6 +11,7 @@ namespace izb {
 
 struct FrameInputs {
   int width_px = 0, height_px = 0;
+  Camera eye;  ///< in the world; what the stages take of it is `camera`
   shared::CameraFrame camera;
   shared::LightFrame light;
   SamplePattern samples;             ///< where in a pixel the shadow samples lie
@@ -27,7 +28,8 @@ struct FrameInputs {
   const DrawList* draw_list = nullptr;
 };
 
-/// What a technique writes: 32 samples a pixel, a set bit is an occluded sample; 0 where there is nothing to shadow.
+/// What a technique writes: 32 samples a pixel, a set bit is an occluded sample; 0 where there is nothing to shadow. Of
+/// one sample a pixel the word is 0 or ~0, unless the technique filters: then its set bits are the share of shadow.
 struct Visibility {
   gpu::Texture mask;  ///< R32UI, bottom row first
 };

@@ -58,12 +58,12 @@ shared::LightFrame make_light_frame(const Camera& camera, const shared::CameraFr
                                     const GridRequest& grid) {
   const bool positional = light.type != LightType::directional;
   const glm::dmat4 view_from_world = glm::inverse(camera.world_from_view);
+  const glm::dmat3 axes = grid.world_axes ? glm::dmat3(view_from_world) : glm::dmat3(1.0);
+  const glm::dvec3 forward = axes * glm::dvec3(0.0, 0.0, -1.0), up = axes * glm::dvec3(0.0, 1.0, 0.0);
   // A point light has no direction: its cube stands along the view.
-  const glm::dvec3 z = light.type == LightType::point
-                           ? glm::dvec3(0.0, 0.0, -1.0)
-                           : glm::normalize(glm::dmat3(view_from_world) * light.direction_ws);
+  const glm::dvec3 z =
+      light.type == LightType::point ? forward : glm::normalize(glm::dmat3(view_from_world) * light.direction_ws);
   // The grid's x axis follows the view as seen from the light, so that the window is tight around the view frustum.
-  const glm::dvec3 forward(0.0, 0.0, -1.0), up(0.0, 1.0, 0.0);
   const glm::dvec3 hint = std::abs(glm::dot(forward, z)) < 0.99 ? forward : up;
   const glm::dvec3 x = glm::normalize(hint - z * glm::dot(hint, z));
   const glm::dvec3 y = glm::cross(z, x);

@@ -24,6 +24,8 @@ struct GridRequest {
   /// Every point of a micro-quad stands in the grid, however near to the light: positional lights get a cube of grids.
   bool whole_micro_quads = false;
   double density = 0.0;  ///< texels that a grid uses for each receiver in its window, 0: all of them
+  /// Light space stands still in the world; otherwise it turns with the view, so that windows are tight around it.
+  bool world_axes = false;
 };
 
 /// What a frame's memory is made for.

@@ -110,6 +110,7 @@ void Renderer::bind_frame() {
 
 void Renderer::render(const Camera& camera, const std::vector<Light>& lights, gpu::StageTimers& timers) {
   if (lights.size() != visibility_.size()) throw std::logic_error("a frame with other lights than were prepared for");
+  common_.eye = camera;
   common_.camera = make_camera_frame(camera, common_.width_px, common_.height_px);
   inputs_.assign(lights.size(), common_);
   faults_.assign(lights.size(), {});
