@@ -47,7 +47,7 @@ struct Settled {
 };
 
 /// Compares `mask` (the technique's) with `ray_mask` (RayTracer::trace_mask) on the receivers, bit by bit; with one
-/// sample a pixel any non-zero word is shadow. Each bit that they dispute is decided by the exact truth at the
+/// sample a pixel a word of 16 bits or more is shadow. Each bit that they dispute is decided by the exact truth at the
 /// sample's point: the union of the exact shadows of all triangles but the receiver's own. Where the mask is not the
 /// truth, the bit is explained only by a witness within `receivers.band` (see witness.h), in particular an edge that
 /// two occluders share explains nothing, and a false shadow is never explained by a triangle's plane. A masked triangle

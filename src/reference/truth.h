@@ -5,6 +5,7 @@
 // the GPU stages work on; the truth about them is computed without error (GMP rationals) wherever rays
 // dispute a bit.
 #pragma once
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
@@ -60,8 +61,8 @@ struct Receivers {
 
   /// The bits of a mask word that sample s sets: one sample fills the word.
   uint32_t word_of(int s) const { return sample_count() == 1 ? 0xFFFFFFFFu : 1u << s; }
-  /// A mask word with bit s for sample s and no other bit; of one sample, any set bit is shadow.
-  uint32_t bits_of(uint32_t word) const { return sample_count() == 1 ? word != 0 : word; }
+  /// A mask word with bit s for sample s and no other bit; of one sample, half the bits set or more are shadow.
+  uint32_t bits_of(uint32_t word) const { return sample_count() == 1 ? std::popcount(word) >= 16 : word; }
 
   /// Throws izb::Error, "cannot {doing}: ...", where the arrays differ in length or the samples are not 1 or 32.
   void check(const char* doing) const;

@@ -115,6 +115,9 @@ TEST(Samples, AWordHasABitASampleAndOneSampleFillsIt) {
   EXPECT_EQ(receivers.point(0, 0), glm::dvec3(1, 2, -3));
   EXPECT_EQ(receivers.word_of(0), dark);
   EXPECT_EQ(receivers.bits_of(dark), 1u);
+  EXPECT_EQ(receivers.bits_of(0xFFFFu), 1u);  // of a filter: half
+  EXPECT_EQ(receivers.bits_of(0x7FFFu), 0u);
+  EXPECT_EQ(receivers.bits_of(0u), 0u);
   Random random(34);
   receivers.offsets_px = random_offsets(random);
   EXPECT_EQ(receivers.word_of(31), 0x80000000u);
