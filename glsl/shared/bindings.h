@@ -55,6 +55,7 @@
 #define UNIT_TABLE 12
 #define UNIT_ALPHA 13
 #define UNIT_UVS 14
+#define UNIT_DEPTH_MAP 15
 
 // Image units.
 #define IMAGE_EYE_DISTANCE 0

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "shadow/izb/izb.h"
 #include "shadow/ray_traced/ray_traced.h"
+#include "shadow/shadow_map/shadow_map.h"
 #include "shadow/technique.h"
 
 namespace izb {
@@ -16,6 +17,7 @@ struct Room {
 constexpr Room rooms[] = {
     {"izb", make_izb},
     {"ray_traced", make_ray_traced},
+    {"shadow_map", make_shadow_map},
 };
 
 }  // namespace

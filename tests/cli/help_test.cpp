@@ -103,6 +103,10 @@ TEST(Help, EachTechniqueListsItsOwnOptions) {
   const std::string traced = help_of({"render", "--technique", "ray_traced"});
   EXPECT_EQ(traced.find("--zcull"), std::string::npos);
   EXPECT_NE(traced.find("ray_traced"), std::string::npos);
+  const std::string mapped = help_of({"render", "--technique", "shadow_map"});
+  expect_options(mapped, {"--resolution", "--cascades", "--fit", "--split-lambda", "--distance", "--filter", "--radius",
+                          "--bias", "--slope-bias", "--normal-offset", "--receiver-plane", "--nl-cull"});
+  EXPECT_EQ(mapped.find("--zcull"), std::string::npos);
 }
 
 }  // namespace

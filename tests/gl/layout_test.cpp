@@ -13,6 +13,7 @@
 #include "shadow/renderer.h"
 #include "shared/bounds.h"
 #include "shared/deform.h"
+#include "shared/depth_map.h"
 #include "shared/lists.h"
 #include "shared/micro_quad.h"
 #include "shared/pairs.h"
@@ -101,6 +102,11 @@ const std::map<std::string, Block> blocks{
       false,
       {FIELD("pool", PoolCounters, nodes), FIELD("pool", PoolCounters, largest_quad),
        FIELD("pool", PoolCounters, carries), FIELD("pool", PoolCounters, unused)}}},
+    {"MapCounterBlock",
+     {sizeof(MapCounters),
+      false,
+      {FIELD("counters", MapCounters, receivers), FIELD("counters", MapCounters, comparisons),
+       FIELD("counters", MapCounters, outside), FIELD("counters", MapCounters, unused)}}},
     {"CounterBlock",
      {sizeof(Counters),
       false,
