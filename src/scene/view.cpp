@@ -53,6 +53,40 @@ Bounds world_bounds(const Scene& scene) {
   return bounds;
 }
 
+PosedBounds::PosedBounds(const Scene& scene) {
+  for (const Mesh& mesh : scene.meshes) {
+    Reach& reach = meshes_.emplace_back();
+    for (const glm::vec3& p : mesh.positions) reach.rest.add(p);
+    for (const MorphTarget& target : mesh.targets) {
+      glm::dvec3& furthest = reach.targets.emplace_back(0.0);
+      for (const glm::vec3& p : target.positions) furthest = glm::max(furthest, glm::abs(glm::dvec3(p)));
+    }
+  }
+}
+
+Bounds PosedBounds::of(const Scene& scene) const {
+  Bounds all;
+  for (const Instance& instance : scene.instances) {
+    const Reach& reach = meshes_[instance.mesh];
+    if (reach.rest.empty()) continue;
+    Bounds box = reach.rest;
+    for (size_t t = 0; t < instance.morph_weights.size(); ++t) {
+      const glm::dvec3 moved = std::abs(double(instance.morph_weights[t])) * reach.targets[t];
+      box.min -= moved, box.max += moved;
+    }
+    const auto add = [&](const glm::dmat4& place) {
+      for (int corner = 0; corner < 8; ++corner)
+        all.add(glm::dvec3(place * glm::dvec4(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                              corner & 4 ? box.max.z : box.min.z, 1.0)));
+    };
+    // A skinned vertex lies between where its joints alone would put it.
+    if (instance.skin < 0) add(instance.world_from_object);
+    else
+      for (const glm::dmat4& joint : scene.skins[static_cast<size_t>(instance.skin)].world_from_bind) add(joint);
+  }
+  return all;
+}
+
 Camera look_at(const glm::dvec3& eye_ws, const glm::dvec3& target_ws, double yfov_rad) {
   const glm::dvec3 offset = eye_ws - target_ws;
   const double distance = glm::length(offset);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scene/scene.h"
 
@@ -11,6 +12,22 @@ namespace izb {
 
 /// Bounds of all instances' vertices in world space.
 Bounds world_bounds(const Scene& scene);
+
+/// Bounds that hold all instances' vertices as they are posed now, found from boxes alone: for every frame of an animation.
+class PosedBounds {
+ public:
+  /// Reads every vertex once.
+  explicit PosedBounds(const Scene& scene);
+  /// Of the scene that it was made of, in any pose.
+  Bounds of(const Scene& scene) const;
+
+ private:
+  struct Reach {
+    Bounds rest;
+    std::vector<glm::dvec3> targets;  ///< how far each morph target moves a vertex along each axis, at most
+  };
+  std::vector<Reach> meshes_;
+};
 
 /// A perspective camera at `eye_ws` that looks at `target_ws`, +y up (or another axis if the view is along y).
 Camera look_at(const glm::dvec3& eye_ws, const glm::dvec3& target_ws, double yfov_rad);

@@ -176,7 +176,18 @@ TEST(Deform, TheMaskIsThatOfTheSameShapeStandingStill) {
   }
 }
 
-TEST(Deform, PosedAnewIsAsLoadedSo) {
+TEST(Deform, TheDepthMapIsThatOfTheSameShapeStandingStill) {
+  const Scene scene = flexible_scene();
+  const Settings settings{{"spp", "32"}, {"filter", "none"}, {"resolution", "256"}, {"cascades", "2"}};
+  for (const Light& light : {sun(130, 40), point_light({1.0, 4.0, 2.0})}) {
+    const Frame moving = render_frame(scene, camera, light, 96, 64, settings, "shadow_map");
+    EXPECT_EQ(different(moving.mask, render_frame(baked(scene), camera, light, 96, 64, settings, "shadow_map").mask), 0u);
+    EXPECT_GT(shadowed(moving), 100u);
+  }
+}
+
+/// Its animation "move" deforms it and moves its parts.
+Scene moving_scene() {
   Scene scene = flexible_scene();
   Animation move;
   move.name = "move";
@@ -193,9 +204,28 @@ TEST(Deform, PosedAnewIsAsLoadedSo) {
   track(5, AnimatedProperty::morph_weights, {0, 1, 1, 0});
   track(4, AnimatedProperty::scale, {1, 1, 1, 2, 0.5f, 1});
   scene.animations.push_back(move);
+  return scene;
+}
 
-  const auto technique = make_technique("izb");
-  set_options(*technique, {{"spp", "32"}, {"grid", "128"}});
+TEST(Deform, BoundsOfAPoseHoldItsVertices) {
+  Scene scene = moving_scene();
+  const PosedBounds posed(scene);
+  Poser poser(scene);
+  for (const double time_s : {0.0, 0.7, 2.0}) {
+    poser.at({"", time_s});
+    const Bounds exact = world_bounds(scene), boxes = posed.of(scene);
+    // Joints' weights are floats: their sum is 1 but for their rounding.
+    const double slack = 1e-5;
+    EXPECT_TRUE(glm::all(glm::lessThanEqual(boxes.min, exact.min + slack))) << time_s;
+    EXPECT_TRUE(glm::all(glm::greaterThanEqual(boxes.max, exact.max - slack))) << time_s;
+    EXPECT_LT(boxes.radius(), 4.0 * exact.radius()) << time_s;
+  }
+}
+
+void expect_posed_as_loaded(const std::string& name, const Settings& settings) {
+  Scene scene = moving_scene();
+  const auto technique = make_technique(name);
+  set_options(*technique, settings);
   Renderer renderer(scene, capabilities());
   renderer.prepare(*technique, 96, 64, {sun(130, 40)});
   Poser poser(scene);
@@ -203,13 +233,19 @@ TEST(Deform, PosedAnewIsAsLoadedSo) {
   for (const double time_s : {0.0, 1.2, 2.0}) {
     poser.at({"", time_s});
     masks.push_back(render_frame(renderer, *technique, camera, sun(130, 40)).mask);
-    const Frame alone = render_frame(scene, camera, sun(130, 40), 96, 64, {{"spp", "32"}, {"grid", "128"}});
+    const Frame alone = render_frame(scene, camera, sun(130, 40), 96, 64, settings, name);
     EXPECT_EQ(different(masks.back(), alone.mask), 0u) << time_s;
   }
   EXPECT_GT(different(masks[0], masks[1]), 100u);
   EXPECT_GT(different(masks[1], masks[2]), 100u);
   poser.at({"", 1.2});  // and back
   EXPECT_EQ(different(render_frame(renderer, *technique, camera, sun(130, 40)).mask, masks[1]), 0u);
+}
+
+TEST(Deform, PosedAnewIsAsLoadedSo) {
+  expect_posed_as_loaded("izb", {{"spp", "32"}, {"grid", "128"}});
+  for (const char* fit : {"receivers", "camera", "stable"})
+    expect_posed_as_loaded("shadow_map", {{"fit", fit}, {"cascades", "3"}, {"resolution", "256"}});
 }
 
 }  // namespace

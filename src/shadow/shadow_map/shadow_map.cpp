@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "frame/spine.h"
-#include "scene/view.h"
 #include "shared/bindings.h"
 
 namespace izb {
@@ -75,7 +74,7 @@ GridRequest ShadowMap::grid() const {
 void ShadowMap::resize(const FrameShape& shape) {
   built_ = settings_;
   geometry_ = shape.geometry.defines();
-  scene_bounds_.reset();
+  posed_bounds_.reset();
   for (size_t i = 0; i < std::size(programs_); ++i)
     if (!programs_[i].is(shadow_map_program_spec(static_cast<ShadowMapProgram>(i), built_, geometry_)))
       programs_[i] = gpu::Program();
@@ -122,8 +121,9 @@ void ShadowMap::render(const FrameInputs& in, Visibility& out, gpu::StageTimers&
 double ShadowMap::shadow_distance(const FrameInputs& in) {
   if (built_.distance > 0.0) return built_.distance;
   if (std::isfinite(in.eye.far_plane)) return in.eye.far_plane;
-  if (!scene_bounds_) scene_bounds_ = in.scene ? world_bounds(*in.scene) : Bounds{};
-  return distance_of_end(in.eye, *scene_bounds_);
+  if (!in.scene) fail("--fit {} takes a --distance where neither the camera nor a scene says where to end", built_.fit);
+  if (!posed_bounds_) posed_bounds_.emplace(*in.scene);
+  return distance_of_end(in.eye, posed_bounds_->of(*in.scene));
 }
 
 void ShadowMap::fit(const FrameInputs& in) {

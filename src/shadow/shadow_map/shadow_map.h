@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "gpu/program.h"
+#include "scene/view.h"
 #include "shadow/shadow_map/fixed_windows.h"
 #include "shadow/shadow_map/settings.h"
 #include "shadow/technique.h"
@@ -62,7 +63,7 @@ class ShadowMap final : public Technique {
   gpu::Sampler hardware_filter_;
   gpu::Buffer windows_, range_, counters_;
   FixedWindows fixed_;
-  std::optional<Bounds> scene_bounds_;  ///< at rest, once a frame has needed them
+  std::optional<PosedBounds> posed_bounds_;  ///< once a frame has needed them
 };
 
 std::unique_ptr<Technique> make_shadow_map();
