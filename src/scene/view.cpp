@@ -80,7 +80,8 @@ Bounds PosedBounds::of(const Scene& scene) const {
                                               corner & 4 ? box.max.z : box.min.z, 1.0)));
     };
     // A skinned vertex lies between where its joints alone would put it.
-    if (instance.skin < 0) add(instance.world_from_object);
+    if (instance.skin < 0)
+      add(instance.world_from_object);
     else
       for (const glm::dmat4& joint : scene.skins[static_cast<size_t>(instance.skin)].world_from_bind) add(joint);
   }

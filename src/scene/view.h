@@ -13,7 +13,8 @@ namespace izb {
 /// Bounds of all instances' vertices in world space.
 Bounds world_bounds(const Scene& scene);
 
-/// Bounds that hold all instances' vertices as they are posed now, found from boxes alone: for every frame of an animation.
+/// Bounds that hold all instances' vertices as they are posed now, found from boxes alone: for every frame of an
+/// animation.
 class PosedBounds {
  public:
   /// Reads every vertex once.

@@ -181,7 +181,8 @@ TEST(Deform, TheDepthMapIsThatOfTheSameShapeStandingStill) {
   const Settings settings{{"spp", "32"}, {"filter", "none"}, {"resolution", "256"}, {"cascades", "2"}};
   for (const Light& light : {sun(130, 40), point_light({1.0, 4.0, 2.0})}) {
     const Frame moving = render_frame(scene, camera, light, 96, 64, settings, "shadow_map");
-    EXPECT_EQ(different(moving.mask, render_frame(baked(scene), camera, light, 96, 64, settings, "shadow_map").mask), 0u);
+    EXPECT_EQ(different(moving.mask, render_frame(baked(scene), camera, light, 96, 64, settings, "shadow_map").mask),
+              0u);
     EXPECT_GT(shadowed(moving), 100u);
   }
 }

@@ -99,6 +99,8 @@ TEST(ShadowMapImage, IsRightBeyondATexelFromTheBorder) {
   Camera flat = above;
   flat.orthographic = true;
   flat.ymag = 4.0;
+  flat.near_plane = 0.1;
+  flat.far_plane = 40.0;
   for (const Kind& kind : kinds)
     for (const Camera& camera : {above, flat})
       for (const char* fit : {"receivers", "camera", "stable"})
@@ -244,15 +246,23 @@ TEST(ShadowMapImage, DiscsBlurAStraightBorderAsFarAsTheirRadius) {
     }
 }
 
-double mean_error(const Frame& truth, const Frame& frame) {
-  double sum = 0.0;
-  size_t count = 0;
+/// Shares of wrong shadow, of all receivers: on those that the light meets at less than 1 : 16, where the bias ends,
+/// and on all others.
+struct Errors {
+  double grazed = 0.0, others = 0.0;
+  double sum() const { return grazed + others; }
+};
+
+Errors errors_of(const Frame& truth, const Frame& frame) {
+  Errors errors;
   for (size_t i = 0; i < frame.mask.size(); ++i) {
     if (frame.receivers.classes[i] != reference::PixelClass::receiver) continue;
-    sum += std::abs(std::popcount(truth.mask[i]) - std::popcount(frame.mask[i])) / 32.0;
-    ++count;
+    const glm::vec3 normal = glm::normalize(shared::octahedral_direction(frame.gbuffer.normal[i]));
+    const bool grazed = glm::dot(normal, glm::vec3(frame.inputs.light.to_light)) < 1.0f / shared::steepest_slope;
+    (grazed ? errors.grazed : errors.others) +=
+        std::abs(std::popcount(truth.mask[i]) - std::popcount(frame.mask[i])) / 32.0 / double(receivers(frame));
   }
-  return sum / double(count);
+  return errors;
 }
 
 TEST(ShadowMapImage, MoreTexelsAndMoreSamplesComeCloserToTheTruth) {
@@ -260,37 +270,46 @@ TEST(ShadowMapImage, MoreTexelsAndMoreSamplesComeCloserToTheTruth) {
   const Light light = sun(130, 40);
   const Frame truth = render_frame(scene, above, light, width_px, height_px,
                                    {{"spp", "32"}, {"coverage", "exact"}, {"insertion", "exact"}});
-  const auto error = [&](const Settings& settings) {
-    return mean_error(truth, render_frame(scene, above, light, width_px, height_px, settings, "shadow_map"));
+  const auto errors = [&](const Settings& settings) {
+    return errors_of(truth, render_frame(scene, above, light, width_px, height_px, settings, "shadow_map"));
   };
   const Settings sharp{{"filter", "none"}, {"spp", "32"}};
-  const double coarse = error(with(sharp, {{"resolution", "256"}})),
-               fine = error(with(sharp, {{"resolution", "4096"}}));
-  const double one = error({{"filter", "none"}, {"spp", "1"}, {"resolution", "4096"}});
-  RecordProperty("coarse", std::to_string(coarse));
-  RecordProperty("fine", std::to_string(fine));
-  EXPECT_LT(fine, coarse / 4.0);
-  // Measured, and a margin: bits of one sample are wrong at every border, those of 32 only in a texel's width.
-  EXPECT_LT(fine, one / 2.0);
-  EXPECT_LT(fine, 0.003);
+  const Errors coarse = errors(with(sharp, {{"resolution", "256"}})),
+               fine = errors(with(sharp, {{"resolution", "4096"}}));
+  const Errors one = errors({{"filter", "none"}, {"spp", "1"}, {"resolution", "4096"}});
+  // Of 16 times as many texels a side the borders that may be wrong are 1/16 as wide. Measured: 1/14.
+  EXPECT_LT(fine.others, coarse.others / 12.0);
+  // One sample is wrong by up to half a pixel at every border, 32 by half a texel, some 1/10 pixel. Measured: 1/13.6.
+  EXPECT_LT(fine.others, one.others / 10.0);
+  // What the light grazes shadows itself, at any number of texels and samples: 0.076 % of all shadow here, with one
+  // sample 0.081 %, more than all else.
+  EXPECT_LT(fine.grazed, 0.001);
+  EXPECT_LT(fine.sum(), one.sum() / 2.0);
   for (const char* filter : {"pcf2x2", "disc32"})
-    EXPECT_LT(error({{"filter", filter}, {"resolution", "4096"}, {"radius", "1.5"}}), one) << filter;
+    EXPECT_LT(errors({{"filter", filter}, {"resolution", "4096"}, {"radius", "1.5"}}).sum(), one.sum()) << filter;
 }
 
 TEST(ShadowMapImage, BitsOf32SamplesAreThoseOfTheirPlaces) {
   const Scene scene = square_over_floor();
   for (const Kind& kind : kinds) {
-    const Frame truth = render_frame(scene, above, kind.light, width_px, height_px,
+    // The sun from behind: the square would hide most of a shadow that falls away from the camera.
+    const Light light = kind.light.type == LightType::directional ? sun(-45, 50) : kind.light;
+    const Frame truth = render_frame(scene, above, light, width_px, height_px,
                                      {{"spp", "32"}, {"coverage", "exact"}, {"insertion", "exact"}});
-    const Frame frame = render_frame(scene, above, kind.light, width_px, height_px,
-                                     {{"spp", "32"}, {"filter", "none"}, {"resolution", "4096"}}, "shadow_map");
+    const Mapped m(scene, above, light, {{"spp", "32"}, {"filter", "none"}, {"resolution", "4096"}});
     size_t wrong = 0, mixed = 0;
-    for (size_t i = 0; i < frame.mask.size(); ++i) {
-      wrong += size_t(std::popcount(frame.mask[i] ^ truth.mask[i]));
-      mixed += truth.mask[i] != 0u && truth.mask[i] != ~0u;
+    double allowed = 0.0;
+    for (size_t i = 0; i < m.frame.mask.size(); ++i) {
+      wrong += size_t(std::popcount(m.frame.mask[i] ^ truth.mask[i]));
+      if (truth.mask[i] == 0u || truth.mask[i] == ~0u) continue;
+      ++mixed;
+      // A sample is asked at its texel's centre, up to half a texel away along each axis, so a quarter on the mean: by
+      // so much a border stands wrong. Measured: 0.43, 0.26 and 0.24 of it.
+      const glm::dvec2 texel = m.texel(i);
+      const double pixel = 64.0 * double(m.frame.receivers.band[i]);
+      allowed += 32.0 * 0.25 * (texel.x + texel.y) / least_sine(light) / pixel;
     }
-    // A pixel is some 8 texels wide here: of a border pixel's samples those in half a texel to each side may be wrong.
-    EXPECT_LT(wrong, mixed * 32 / 4) << kind.name;
+    EXPECT_LT(double(wrong), allowed) << kind.name;
     EXPECT_GT(mixed, 200u);
   }
 }
