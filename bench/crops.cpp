@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The same pixels of several frames, magnified and side by side: what bench/crops.sh shows of its frames.
+// The same pixels of several frames, magnified and side by side: what bench/crops.sh and
+// bench/figure_1.sh show of their frames.
 #include <CLI/CLI.hpp>
 #include <bit>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 
@@ -37,9 +39,14 @@ Image crop_of(const std::string& file, const PixelRect& part, std::optional<std:
 void print_difference(const std::string& file, const Image& image, const std::string& other_file, const Image& other) {
   if (!image.find("mask") || !other.find("mask")) return;  // filtered: it has none
   const std::vector<uint32_t>&a = image.uints("mask"), &b = other.uints("mask");
-  int differing = 0;
-  for (size_t i = 0; i < a.size(); ++i) differing += std::popcount(a[i] ^ b[i]);
-  fmt::print("{} and {}: {} of {} mask bits of the crop differ\n", file, other_file, differing, 32 * a.size());
+  // Where a technique filters, only the number of a pixel's bits means something.
+  int differing = 0, more = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    differing += std::popcount(a[i] ^ b[i]);
+    more += std::abs(std::popcount(a[i]) - std::popcount(b[i]));
+  }
+  fmt::print("{} and {}: {} of {} mask bits of the crop differ, the shadow of a pixel by {:.2f} %\n", file, other_file,
+             differing, 32 * a.size(), 100.0 * more / (32.0 * double(a.size())));
 }
 
 void run(const CropOptions& o) {

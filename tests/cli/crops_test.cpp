@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// bench/crops.sh and its program, without the frames of the shipped scene: they take a minute.
+// bench/crops.sh, bench/figure_1.sh and their program, without the frames of the shipped scene: they take a minute.
 #include <gtest/gtest.h>
 
 #include "cli/run_program.h"
@@ -30,7 +30,7 @@ TEST(Crops, PutsTheSamePixelsSideBySideAndCountsBits) {
   const Outcome outcome = run_program({IZB_CROPS, folder / "a.exr", folder / "b.exr", folder / "large.exr", "--crop",
                                        "1,2,2,1", "--magnify", "2", "-o", folder / "out.png"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(outcome.prints("6 of 64 mask bits of the crop differ")) << outcome.out;
+  EXPECT_TRUE(outcome.prints("6 of 64 mask bits of the crop differ, the shadow of a pixel by 3.12 %")) << outcome.out;
   const Image8 picture = read_png(folder / "out.png");
   EXPECT_EQ(picture.width_px, 3 * 4 + 2 * 4);
   EXPECT_EQ(picture.height_px, 2);
@@ -63,14 +63,17 @@ TEST(Crops, RefusesWhatItCannotShow) {
   EXPECT_EQ(names_in(folder / ""), (std::vector<std::string>{"a.exr", "b.exr"}));
 }
 
-TEST(Crops, TheScriptSaysHowItIsUsed) {
-  const std::string script = IZB_SOURCE_DIR "/bench/crops.sh";
-  const Outcome help = run_program({script, "--help"});
-  EXPECT_EQ(help.code, 0);
-  EXPECT_TRUE(help.prints("usage: bench/crops.sh")) << help.out;
-  EXPECT_EQ(run_program({script, "--unknown"}).code, 2);
-  EXPECT_EQ(run_program({script, "a.png", "b.png"}).code, 2);
-  EXPECT_EQ(run_program({script, "/nonexistent/folder/a.png"}).code, 1);
+TEST(Crops, TheScriptsSayHowTheyAreUsed) {
+  for (const std::string name : {"crops", "figure_1"}) {
+    const std::string script = IZB_SOURCE_DIR "/bench/" + name + ".sh";
+    const Outcome help = run_program({script, "--help"});
+    EXPECT_EQ(help.code, 0);
+    EXPECT_TRUE(help.prints("usage: bench/" + name + ".sh")) << help.out;
+    EXPECT_EQ(run_program({script, "--unknown"}).code, 2);
+    EXPECT_EQ(run_program({script, "a.png", "b.png"}).code, 2);
+    EXPECT_EQ(run_program({script, "/nonexistent/folder/a.png"}).code, 1);
+  }
+  EXPECT_EQ(run_program({IZB_SOURCE_DIR "/bench/figure_1.sh", "a.png", "4"}).code, 2);
 }
 
 }  // namespace
