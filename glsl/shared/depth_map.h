@@ -14,8 +14,9 @@ struct MapBias {
   float plane;          // 1: each texel is compared with the receiver's plane at its centre, 0: with the receiver
 };
 
-// A wall along the light's ray has no finite slope.
-const float steepest_slope = 16.0f;
+// A wall along the light's ray has no finite slope. A bias is paid for by leaks: it ends earlier than the plane.
+const float steepest_plane = 256.0f;
+const float steepest_bias = 16.0f;
 
 // The window with so many texels more around the receivers, so that a filter finds casters beyond their border.
 SHARED LightWindow with_margin(IN(LightWindow) w, float texels) {
@@ -49,9 +50,9 @@ struct MapReceiver {
 };
 
 // How far a receiver's plane sinks away from the light over a length across its ray, along the map's x and y.
-SHARED vec2 plane_slope(IN(LightFrame) light, IN(vec3) p_ls, IN(vec3) normal_ls) {
+SHARED vec2 plane_slope(IN(LightFrame) light, IN(vec3) p_ls, IN(vec3) normal_ls, float steepest) {
   float along = is_positional(light) ? dot(normal_ls, p_ls) / p_ls.z : normal_ls.z;
-  float least = max(abs(normal_ls.x), abs(normal_ls.y)) / steepest_slope + 1.0e-20f;
+  float least = max(abs(normal_ls.x), abs(normal_ls.y)) / steepest + 1.0e-20f;
   float limited = along < 0.0f ? min(along, -least) : max(along, least);
   return vec2(-normal_ls.x / limited, -normal_ls.y / limited);
 }
@@ -72,10 +73,11 @@ SHARED MapReceiver make_map_receiver(IN(LightFrame) light, IN(LightWindow) w, IN
   MapReceiver r;
   r.at = vec2(grid.x, grid.y);
   r.depth = grid.z;
-  r.slope = plane_slope(light, p, n) * texel * depth_a_unit;
+  r.slope = plane_slope(light, p, n, steepest_plane) * texel * depth_a_unit;
+  vec2 rise = abs(plane_slope(light, p, n, steepest_bias) * texel * depth_a_unit);  // over a texel along each axis
   // The map's depth and the receiver's are rounded in different ways.
   float rounding = 4.0f * (d_error(light, p_vs, p) * w.depth.y + 8.0f * unit_roundoff * (1.0f + abs(w.depth.x)));
-  r.bias = bias.constant * largest * depth_a_unit + bias.slope * (abs(r.slope.x) + abs(r.slope.y)) + rounding;
+  r.bias = bias.constant * largest * depth_a_unit + bias.slope * (rise.x + rise.y) + rounding;
   return r;
 }
 

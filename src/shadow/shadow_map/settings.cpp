@@ -11,6 +11,8 @@ namespace {
 // So that a margin on both sides leaves most of the smallest map to the receivers.
 constexpr double largest_radius_texels = 16.0;
 constexpr int smallest_resolution = 64;
+// Of the receiver's plane at a texel's centre: vertices snap to 1/256 texel, and neighbouring planes differ a little.
+constexpr double slope_bias_on_plane_texels = 0.1;
 
 }  // namespace
 
@@ -33,8 +35,9 @@ OptionSet ShadowMapSettings::options() {
   set.number("radius", radius_texels, 0.0, largest_radius_texels, "texels", "of the disc");
   set.number("bias", bias_texels, 0.0, 64.0, "texels",
              "by which a receiver is moved along its ray to the light; a texel is as wide as at the receiver");
-  set.number("slope-bias", slope_bias_texels, 0.0, 64.0, "texels",
-             "and by the depth that its own plane rises over so many texels along both axes");
+  set.number("slope-bias", slope_bias_texels, -1.0, 64.0, "texels",
+             "and by the depth that its own plane rises over so many texels along both axes; below 0: as many as the "
+             "filter needs");
   set.number("normal-offset", normal_offset_texels, 0.0, 64.0, "texels",
              "by which a receiver is moved along its normal before, times the sine of the angle to the light");
   set.flag("receiver-plane", receiver_plane,
@@ -42,6 +45,13 @@ OptionSet ShadowMapSettings::options() {
            "receiver's own");
   set.flag("nl-cull", nl_cull, "look up no pixels with N.L <= 0");
   return set;
+}
+
+double ShadowMapSettings::slope_bias() const {
+  if (slope_bias_texels >= 0.0) return slope_bias_texels;
+  if (filter == "pcf2x2") return 1.0;
+  if (receiver_plane) return slope_bias_on_plane_texels;
+  return taps() > 0 ? radius_texels + 0.5 : 0.5;
 }
 
 int ShadowMapSettings::margin_texels() const {

@@ -14,7 +14,7 @@ struct ShadowMapSettings {
   SampleOptions sampling{"1", "hammersley"};
   std::string filter = "pcf2x2", fit = "receivers";
   int resolution = 2048, cascades = 1;
-  double radius_texels = 1.5, bias_texels = 0.5, slope_bias_texels = 1.0, normal_offset_texels = 0.0;
+  double radius_texels = 1.5, bias_texels = 0.5, slope_bias_texels = -1.0, normal_offset_texels = 0.0;
   double split_lambda = 0.5, distance = 0.0;
   bool receiver_plane = true, nl_cull = true;
 
@@ -27,6 +27,8 @@ struct ShadowMapSettings {
   /// Windows from the bounds stage; otherwise from the camera alone.
   bool fits_receivers() const { return fit == "receivers"; }
   bool stable() const { return fit == "stable"; }
+  /// Texels over which a receiver's plane may rise: as asked for, or as many as the filter needs.
+  double slope_bias() const;
   /// Texels around a window that the filter reads.
   int margin_texels() const;
   /// Where the filter's points lie, in texels from the receiver: spirals of equal area a point (Vogel 1979).

@@ -169,7 +169,7 @@ void ShadowMap::visibility(const FrameInputs& in, Visibility& out, ShadowMapProg
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_COUNTERS, counters_.name());
   lookup.use();
   glUniform1f(1, margin());
-  glUniform4f(2, float(built_.bias_texels), float(built_.slope_bias_texels), float(built_.normal_offset_texels),
+  glUniform4f(2, float(built_.bias_texels), float(built_.slope_bias()), float(built_.normal_offset_texels),
               built_.receiver_plane ? 1.0f : 0.0f);
   const std::vector<glm::vec2> taps = built_.tap_offsets();
   if (!taps.empty()) glUniform2fv(3, static_cast<GLsizei>(taps.size()), &taps[0].x);
