@@ -292,8 +292,13 @@ TEST(ShadowMapImage, MoreTexelsAndMoreSamplesComeCloserToTheTruth) {
   EXPECT_LT(fine.sum(), one.sum() / 10.0);
   // Where the bias ends the plane goes on: no acne there, at any number of texels. Measured: 0.
   EXPECT_LT(coarse.grazed + fine.grazed + one.grazed, 1e-4);
-  for (const char* filter : {"pcf2x2", "disc32"})
-    EXPECT_LT(errors({{"filter", filter}, {"resolution", "4096"}, {"radius", "1.5"}}).sum(), one.sum()) << filter;
+  // A filter helps most where it is about as wide as a pixel; of texels far smaller it sees no more than one sample
+  // does. Measured, in texels of some 2/5 pixel: 0.73 and 0.36 of the error without one.
+  const auto of_one = [&](const char* filter) {
+    return errors({{"filter", filter}, {"resolution", "1024"}, {"radius", "1.5"}}).sum();
+  };
+  EXPECT_LT(of_one("pcf2x2"), 0.85 * of_one("none"));
+  EXPECT_LT(of_one("disc32"), 0.5 * of_one("none"));
 }
 
 TEST(ShadowMapImage, BitsOf32SamplesAreThoseOfTheirPlaces) {
