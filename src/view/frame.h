@@ -70,11 +70,13 @@ struct SceneFacts {
   glm::dvec3 center_ws{0.0};
   std::vector<std::string> ignored;
   FrameOptions frame;  ///< as asked, with a camera and a light by name or by numbers
+  uint64_t load = 0;   ///< which Painter::load() asked for it
 };
 
 struct Message {
   bool error = false;
   std::string text;
+  uint64_t load = 0;  ///< of which Painter::load(); 0: of none
 };
 
 /// The state of the shaders' text: as the program began, read again, or refused.

@@ -88,8 +88,10 @@ void Painter::push(Job job) {
   work_.notify_one();
 }
 
-void Painter::load(const std::string& file, const FrameOptions& asked) {
-  push([=, this] { do_load(file, asked); });
+uint64_t Painter::load(const std::string& file, const FrameOptions& asked) {
+  const uint64_t number = ++loads_;
+  push([=, this] { do_load(file, asked, number); });
+  return number;
 }
 
 void Painter::reload_shaders() {
@@ -176,6 +178,7 @@ void Painter::run() {
       refined_ = painted_.load();
     }
     check_gl();
+    load_ = 0;
     busy_ = false;
     setup_.wake();
   }
@@ -224,7 +227,7 @@ bool Painter::interrupted() const {
 
 void Painter::say(bool error, std::string text) {
   const std::scoped_lock lock(mutex_);
-  messages_.push_back({error, std::move(text)});
+  messages_.push_back({error, std::move(text), load_});
 }
 
 void Painter::check_gl() {
@@ -261,10 +264,12 @@ std::unique_ptr<Painter::Open> Painter::open(const std::string& file) {
   return opened;
 }
 
-void Painter::do_load(const std::string& file, const FrameOptions& asked) {
+void Painter::do_load(const std::string& file, const FrameOptions& asked, uint64_t number) {
+  load_ = number;
   try {
     std::unique_ptr<Open> opened = open(file);
     auto facts = std::make_shared<SceneFacts>(facts_of(file, opened->scene, opened->poser, asked));
+    facts->load = number;
     truth_.cancel();
     tracing_ = false;
     traced_serial_ = 0;

@@ -33,8 +33,8 @@ class Painter {
   ~Painter();
 
   // From the interface; none waits for the painter.
-  /// `asked`: the frame as a command line would ask for it.
-  void load(const std::string& file, const FrameOptions& asked);
+  /// `asked`: the frame as a command line would ask for it. Returns the load's number, which its outcome will name.
+  uint64_t load(const std::string& file, const FrameOptions& asked);
   void request(Request request);
   void reload_shaders();
   /// Writes the picture at full resolution of the active side of the last request.
@@ -74,7 +74,7 @@ class Painter {
   bool settled() const;
   bool is_settled() const;
   bool interrupted() const;
-  void do_load(const std::string& file, const FrameOptions& asked);
+  void do_load(const std::string& file, const FrameOptions& asked, uint64_t number);
   std::unique_ptr<Open> open(const std::string& file);
   void do_reload();
   void do_screenshot(const std::string& stem);
@@ -103,6 +103,7 @@ class Painter {
   std::array<Side, 2> sides_;
   Side truth_side_;
   double motion_scale_ = 0.25;
+  uint64_t load_ = 0;            ///< the load at work; 0: none
   std::shared_ptr<Frame> last_;  ///< published last, at rest
   Request last_request_;         ///< of it
   std::shared_ptr<const Snapshot> frozen_;
@@ -116,6 +117,8 @@ class Painter {
   TracedTruth shown_truth_;
   std::string truth_key_;       ///< of what is or was traced
   uint64_t traced_serial_ = 0;  ///< likewise
+
+  uint64_t loads_ = 0;  ///< the interface's
 
   mutable std::mutex mutex_;
   std::condition_variable work_;

@@ -197,6 +197,14 @@ TEST_F(Files, TheStateOutlivesTheProgram) {
   viewer->wait_at_rest();
   viewer->input().key("ctrl+o");
   viewer->wait_for("state", [&](const json& s) { return s["state"] == before; });
+  // Whatever comes of a file that was dropped the moment before.
+  for (int times = 0; times < 3; ++times) {
+    viewer->input().drag({200, 150}, {240, 190}, Button::left, 5);
+    viewer->wait_for("state", [&](const json& s) { return s["state"] != before; });
+    drop_files(viewer->input(), {*folder / "missing.glb"}, {0, 0});
+    viewer->input().key("ctrl+o");
+    viewer->wait_for("state", [&](const json& s) { return s["state"] == before; });
+  }
   // And by another process.
   viewer->stop();
   Viewer again(*display, {{IZB_PROGRAM, "view", "--state", file, "--size", "480x300"}, home(), {}});

@@ -177,8 +177,7 @@ void Ui::load_state() {
     } catch (const Error& e) {
       fail("cannot read the state '{}': {}", file.string(), e.what());
     }
-    loading_state_ = state;
-    painter_.load(state.scene, state.frame);
+    loading_state_ = {painter_.load(state.scene, state.frame), state};
   });
 }
 

@@ -114,7 +114,7 @@ void Ui::keep(const std::string& what, const std::filesystem::path& file, const 
 void Ui::take_results() {
   for (const std::string& file : window_.take_dropped()) drop(file);
   for (const Message& message : painter_.take_messages()) {
-    if (message.error) loading_state_.reset();
+    if (message.error && loading_state_ && loading_state_->load == message.load) loading_state_.reset();
     say(message.error, message.text);
   }
   if (const auto facts = painter_.take_scene()) open(*facts);
@@ -147,8 +147,8 @@ void Ui::take_results() {
 
 void Ui::open(const SceneFacts& facts) {
   facts_ = std::make_shared<SceneFacts>(facts);
-  if (loading_state_) {
-    state_ = *loading_state_;
+  if (loading_state_ && loading_state_->load == facts.load) {
+    state_ = loading_state_->state;
     loading_state_.reset();
     for (size_t i = 0; i < 2; ++i) options_[i] = state_.sides[i].make();
   }

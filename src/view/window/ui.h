@@ -159,7 +159,11 @@ class Ui {
   std::optional<std::pair<double, glm::ivec2>> click_;  ///< when and where: a pick, unless another follows
   std::vector<glm::dvec3> lit_points_ws_;               ///< of the texel that was picked
   std::vector<std::pair<int, glm::ivec2>> lit_texels_;  ///< of the pixel that was picked
-  std::optional<ViewState> loading_state_;
+  struct LoadingState {
+    uint64_t load;
+    ViewState state;
+  };
+  std::optional<LoadingState> loading_state_;            ///< until its scene is there
   std::optional<std::pair<size_t, Light>> moved_light_;  ///< as it was dragged last
 
   uint64_t serial_ = 0;
