@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <functional>
 
@@ -142,7 +143,8 @@ class VirtualDisplay {
     if (pipe(ends) != 0) return;
     server_ = fork();
     if (server_ == 0) {
-      // The server chooses a free display and writes its number.
+      // The server chooses a free display and writes its number; of those that others have it complains.
+      if (std::freopen("/dev/null", "w", stderr) == nullptr) _exit(126);
       const std::string end = std::to_string(ends[1]);
       execlp("Xvfb", "Xvfb", "-displayfd", end.c_str(), "-screen", "0", "640x480x24", "-nolisten", "tcp", nullptr);
       _exit(127);
