@@ -91,8 +91,8 @@ SHARED LightWindow make_window(IN(LightFrame) light, IN(ReceiverBounds) b) {
 }
 
 // Of micro-quads. A pixel whose own is more wrong than this window's guards say brings its own guard along (faces.h,
-// quad_guard). One that nearly reaches the light's plane is wrong by several texels; with a guard for that one every other
-// pixel went into a hundred texels.
+// quad_guard). One that nearly reaches the light's plane is wrong by several texels; with a guard for that one a hundred
+// thousand other pixels went into more than a hundred texels each.
 SHARED LightWindow make_quad_window(IN(LightFrame) light, IN(ReceiverBounds) b) {
   LightWindow w = make_window(light, b);
   w.guard.x = min(w.guard.x, 0.0625f);

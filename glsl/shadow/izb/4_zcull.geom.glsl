@@ -1,6 +1,6 @@
 #version 450 core
-// 5.4 All layers in one draw. With a framebuffer for each, llvmpipe keeps as many frames in flight, and what they drew to and
-// read alive for as long as nothing else takes as many: hundreds of megabytes after a lamp with cascades.
+// 5.4 All layers in one draw. With a framebuffer for each, grids that were long deleted stayed allocated on llvmpipe, hundreds of
+// megabytes after a lamp with cascades; its queue of frames in flight seems to hold them until it is as long again.
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
 layout(location = 0) flat in int v_layer[];
