@@ -70,8 +70,9 @@ int levels_of(const Texture& t) {
 
 /// llvmpipe bins triangles faster than it rasterises them and keeps all that wait, a few hundred bytes each: of ten
 /// million that was 2 GB. Where that counts, drawing waits for what was drawn two steps before. Where frames are given
-/// up between draws, every draw is waited for: llvmpipe keeps what a draw had read and drawn to until it next has as
-/// many draws in flight, which for a person who tries everything adds up to a gigabyte of grids that are long gone.
+/// up between draws, every draw is waited for: llvmpipe seems to keep what a draw had read and drawn to until it next
+/// has as many draws in flight, which for a person who tries everything adds up to a gigabyte of grids that are long
+/// gone.
 class Throttle {
  public:
   Throttle(bool active, uint64_t step_triangles, bool lags)
