@@ -15,29 +15,8 @@ of the masks differ, also between izb with --preset exact and the rays. Takes a 
 TEXT
 }
 
-case ${1:-} in
-  -h | --help)
-    usage
-    exit 0
-    ;;
-  -*)
-    usage >&2
-    exit 2
-    ;;
-esac
-if [ $# -gt 1 ]; then
-  usage >&2
-  exit 2
-fi
-
-picture=$(realpath -m "${1:-$(dirname "${BASH_SOURCE[0]}")/../out/crops.png}")
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-mkdir -p out
-if [ ! -d "$(dirname "$picture")" ]; then
-  echo "crops.sh: no folder '$(dirname "$picture")'" >&2
-  exit 1
-fi
-./run build
+# shellcheck source=bench/picture.sh
+source "$(dirname "${BASH_SOURCE[0]}")/picture.sh"
 cmake --build build/release --target izb_garden izb_crops >&2
 frames=$(mktemp -d)
 trap 'rm -rf "$frames"' EXIT

@@ -20,30 +20,14 @@ shadow each differs from the rays there. Takes a minute on two cores; the map ta
 TEXT
 }
 
-case ${1:-} in
-  -h | --help)
-    usage
-    exit 0
-    ;;
-  -*)
-    usage >&2
-    exit 2
-    ;;
-esac
 scale=${2:-1}
-if [ $# -gt 2 ] || [[ ! $scale =~ ^[123]$ ]]; then
+if [[ ! $scale =~ ^[123]$ ]]; then
   usage >&2
   exit 2
 fi
-
-picture=$(realpath -m "${1:-$(dirname "${BASH_SOURCE[0]}")/../out/figure_1.png}")
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-mkdir -p out
-if [ ! -d "$(dirname "$picture")" ]; then
-  echo "figure_1.sh: no folder '$(dirname "$picture")'" >&2
-  exit 1
-fi
-./run build
+most_arguments=2
+# shellcheck source=bench/picture.sh
+source "$(dirname "${BASH_SOURCE[0]}")/picture.sh"
 cmake --build build/release --target izb_crops >&2
 frames=$(mktemp -d)
 trap 'rm -rf "$frames"' EXIT

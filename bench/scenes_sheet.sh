@@ -9,24 +9,12 @@ usage() {
 usage: bench/scenes_sheet.sh [OUT.png]
 
 Makes every procedural scene, of at most a million triangles, renders it from its camera "main", and tiles the pictures, five
-a row in the order of `izb scene --help`, into OUT.png (default out/scenes.png). Needs oiiotool. Takes some minutes.
+a row in the order of `izb scene --help`, into OUT.png (default out/scenes_sheet.png). Needs oiiotool. Takes some minutes.
 TEXT
 }
 
-case ${1:-} in
-  -h | --help)
-    usage
-    exit 0
-    ;;
-  -*)
-    usage >&2
-    exit 2
-    ;;
-esac
-picture=$(realpath -m "${1:-$(dirname "${BASH_SOURCE[0]}")/../out/scenes.png}")
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-mkdir -p out
-./run build
+# shellcheck source=bench/picture.sh
+source "$(dirname "${BASH_SOURCE[0]}")/picture.sh"
 izb=$PWD/build/release/izb
 frames=$(mktemp -d)
 trap 'rm -rf "$frames"' EXIT

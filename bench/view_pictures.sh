@@ -12,16 +12,8 @@ view_stages.png and view_light_space.png into FOLDER (default out). Takes some m
 TEXT
 }
 
-case ${1:-} in
-  -h | --help)
-    usage
-    exit 0
-    ;;
-  -*)
-    usage >&2
-    exit 2
-    ;;
-esac
+# shellcheck source=bench/arguments.sh
+source "$(dirname "${BASH_SOURCE[0]}")/arguments.sh"
 folder=$(realpath -m "${1:-$(dirname "${BASH_SOURCE[0]}")/../out}")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 mkdir -p "$folder"

@@ -274,7 +274,9 @@ TEST(IzbBuild, ExactInsertionPutsANodeIntoEachTexelThatTheMicroQuadTouchesAndInt
       EXPECT_GT(across, 20u);
       EXPECT_LT(across, 400u);
     }
-    if (of == &wall.with_wall) EXPECT_GT(wide, 10u);
+    if (of == &wall.with_wall) {
+      EXPECT_GT(wide, 10u);
+    }
   }
 }
 
