@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <vector>
 
 #include "cpu/gltf_writer.h"
 
@@ -52,6 +53,22 @@ TEST_F(MachineMemory, OfVersionOneAndAGroupSeenAsTheRoot) {
   write("sys/fs/cgroup/memory/memory.usage_in_bytes", "1000000\n");
   write("sys/fs/cgroup/memory/memory.stat", "total_inactive_file 200000\ntotal_active_file 100000\n");
   EXPECT_EQ(available(), 3000000u - 700000u);
+}
+
+TEST(ProcessMemory, OfWhatWasFreedGoesBack) {
+#if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "another allocator";
+#endif
+  // Small enough for the C library to keep them, with something behind each that stays.
+  std::vector<std::vector<char>> blocks, staying;
+  for (int i = 0; i < 2000; ++i) {
+    blocks.emplace_back(100000, 'x');
+    staying.emplace_back(2000, 'x');
+  }
+  blocks.clear();
+  const uint64_t kept = izb::process_memory().value();
+  izb::give_back_freed_memory();
+  EXPECT_LT(izb::process_memory().value() + 150'000'000, kept);
 }
 
 }  // namespace

@@ -53,6 +53,24 @@ TEST(Buffer, SmallAndEmptyOnesCanBeBound) {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, small.name());
 }
 
+TEST(Readings, OfAContextThatTheDriverHasResetAreRefused) {
+  const Buffer buffer("numbers", std::vector<uint32_t>{5});
+  const Texture texture("texels", GL_R32UI, 2, 2);
+  const auto driver = glGetGraphicsResetStatus;
+  for (const auto& [status, reason] : {std::pair<PFNGLGETGRAPHICSRESETSTATUSPROC, const char*>{
+                                           [] { return GLenum{GL_GUILTY_CONTEXT_RESET}; }, "this program's context"},
+                                       {[] { return GLenum{GL_INNOCENT_CONTEXT_RESET}; }, "another program"},
+                                       {[] { return GLenum{GL_UNKNOWN_CONTEXT_RESET}; }, "a reason unknown"}}) {
+    glGetGraphicsResetStatus = status;
+    const std::string of_buffer = error_of([&] { buffer.read<uint32_t>(1); });
+    const std::string of_texture = error_of([&] { texture.read<uint32_t>(GL_RED_INTEGER, GL_UNSIGNED_INT, 1); });
+    glGetGraphicsResetStatus = driver;
+    EXPECT_NE(of_buffer.find(reason), std::string::npos) << of_buffer;
+    EXPECT_EQ(of_buffer, of_texture);
+  }
+  EXPECT_EQ(buffer.read<uint32_t>(1), std::vector<uint32_t>{5});
+}
+
 TEST(Object, MovesOwnership) {
   Buffer a("a", std::vector<uint32_t>{1, 2, 3, 4});
   const GLuint name = a.name();
