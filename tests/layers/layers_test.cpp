@@ -50,7 +50,7 @@ const Home homes[] = {
     {"(glslang|SPIRV)/.*", "gpu/glsl_front_end\\.cpp"},
     {"embree.*", "reference/embree[a-z_]*\\.cpp"},
     {"gmp(xx)?\\.h", "reference/.*\\.cpp"},
-    {"openssl/.*", "base/sha256\\.cpp"},
+    {"openssl/.*", "base/(sha256|base64)\\.cpp"},
 };
 
 std::vector<std::string> included(const fs::path& file) {

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench/report_assets.h"
+
+#include <cstdlib>
+#include <system_error>
+
+#include "base/error.h"
+#include "base/file.h"
+
+namespace izb::report {
+namespace {
+
+/// d3.min.js beside the other files, or of the source tree where CMake found it; empty: nowhere.
+std::filesystem::path find_d3(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (std::filesystem::exists(folder / "d3.min.js", ignored)) return folder / "d3.min.js";
+  if (folder == IZB_REPORT_SOURCE_DIR && std::filesystem::exists(IZB_D3, ignored)) return IZB_D3;
+  return {};
+}
+
+}  // namespace
+
+std::filesystem::path assets_folder() {
+  if (const char* folder = std::getenv("IZB_REPORT")) return folder;
+  std::error_code ignored;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  const auto installed = program.parent_path().parent_path() / IZB_REPORT_INSTALL_DIR;
+  if (std::filesystem::is_directory(installed, ignored)) return installed;
+  if (std::filesystem::is_directory(IZB_REPORT_SOURCE_DIR, ignored)) return IZB_REPORT_SOURCE_DIR;
+  fail("the files of the report are neither in {} nor in {}; set IZB_REPORT to their folder", installed.string(),
+       IZB_REPORT_SOURCE_DIR);
+}
+
+Assets read_assets() {
+  const std::filesystem::path folder = assets_folder();
+  Assets assets;
+  assets.styles = read_text_file(folder / "report.css");
+  assets.theme = read_text_file(folder / "theme.js");
+  for (const char* file :
+       {"page.js", "gestures.js", "tables.js", "images.js", "plot_line.js", "plot_bars.js", "plot_svg.js", "plots.js"})
+    assets.scripts += read_text_file(folder / file);
+  if (const auto d3 = find_d3(folder); !d3.empty()) {
+    assets.d3 = read_text_file(d3);
+    assets.d3_licence = read_text_file(folder / "d3_licence.txt");
+  }
+  return assets;
+}
+
+}  // namespace izb::report
