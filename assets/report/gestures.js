@@ -26,7 +26,9 @@ izb.gestures = function (element, on) {
     event.preventDefault();
     const lines = event.deltaMode === 1 ? 20 : 1;
     const p = at(event);
-    on.zoom(Math.pow(2, -event.deltaY * lines / (event.ctrlKey ? 100 : 300)), p.x, p.y);
+    // With Ctrl come the small steps of a trackpad's pinch, too.
+    const factor = Math.pow(2, -event.deltaY * lines / (event.ctrlKey ? 100 : 300));
+    on.zoom(Math.min(Math.max(factor, 1 / 1.5), 1.5), p.x, p.y);
     settle();
   }, {passive: false});
 

@@ -112,8 +112,8 @@ izb.barFill = function (shape, svg, id, color, paper) {
       const whiskers = bar.low !== null && bar.low !== undefined && bar.high !== null;
       if (whiskers) {
         const middle = top + thickness / 2, cap = Math.min(4, thickness / 2 - 1);
-        group.append("path").attr("class", "whisker on-bar")
-          .attr("d", `M${scale(bar.low)},${middle}H${scale(bar.high)}M${scale(bar.low)},${middle - cap}v${2 * cap}M${scale(bar.high)},${middle - cap}v${2 * cap}`);
+        const path = `M${scale(bar.low)},${middle}H${scale(bar.high)}M${scale(bar.low)},${middle - cap}v${2 * cap}M${scale(bar.high)},${middle - cap}v${2 * cap}`;
+        for (const part of ["whisker-ground", "whisker on-bar"]) group.append("path").attr("class", part).attr("d", path);
       }
       const negative = bar.value !== null && bar.value < 0;
       const end = bar.value === null ? base : negative ? Math.min(bar.end, whiskers ? bar.low : bar.end) : Math.max(bar.end, whiskers ? bar.high : bar.end);

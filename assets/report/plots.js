@@ -82,7 +82,7 @@ izb.ticks = function (scale, kind, count) {
     const reset = addButton(tools, "Reset zoom", () => resetView());
     addButton(tools, "Save SVG", () => izb.saveSvg(plot, svg.node()));
     tools.append(izb.element("span", "hint", data.kind === "line"
-      ? "drag: zoom · click, then wheel · shift and drag: move · double click: all"
+      ? "drag: zoom · click, then wheel · shift-drag: move · double click: all"
       : "drag: zoom · click, then wheel · double click: all"));
     figure.querySelector("details").before(legend(plot, () => draw()), stage, tools);
 
@@ -204,7 +204,7 @@ izb.ticks = function (scale, kind, count) {
     for (const series of plot.visible()) {
       const row = table.insertRow();
       row.insertCell().append(swatch(plot, series.name, series.paper, 12));
-      const named = plot.data.kind === "stacked" ? series.stack : series.paper ? "paper" : "";
+      const named = plot.data.kind === "stacked" ? series.stack : series.paper && !/\bpaper\b/.test(series.name) ? "paper" : "";
       row.insertCell().textContent = series.name + (named ? ` (${named})` : "");
       const value = series.values[index];
       row.insertCell().textContent = plot.valueText(value) + (value !== null && y.unit ? " " + y.unit : "");
