@@ -7,7 +7,8 @@ SHARED_BEGIN
 
 struct CameraFrame {
   mat4 clip_from_view;  // reversed depth in [0, 1]: 1 at the near plane
-  vec4 pixel_ray;       // q = px * xy + zw; px counts from the bottom left corner, pixel centres at .5
+  vec4 pixel_ray;       // q = px * xy + zw; px counts from the bottom left corner, pixel centres at .5, where rays
+                        // pass whose camera has no shift within the pixel
   vec4 footprint;       // x, y: a pixel's width in world units at eye distance t is x * t + y
                         // z: 1 perspective, 0 orthographic
   uvec4 size_px;        // width, height

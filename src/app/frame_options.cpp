@@ -249,10 +249,13 @@ Size parse_size(const std::string& text) {
 }
 
 void FrameChoice::move(const Poser& poser, double time_s) {
-  if (path)
+  if (path) {
+    const glm::dvec2 pixel_shift = camera.pixel_shift;
     camera = path->at(time_s);
-  else
+    camera.pixel_shift = pixel_shift;
+  } else {
     poser.place(camera);
+  }
   for (Light& light : lights) poser.place(light);
   place_lights();
 }

@@ -34,7 +34,8 @@ std::array<float, 16> floats_of(const glm::dmat4& m) {
 /// OpenEXR's camera space looks along +z; its NDC runs from the upper left corner (0, 0) to the lower right (1, 1).
 void add_camera(Image& image, const RenderedFrame& rendered) {
   const glm::dmat4 view = glm::inverse(rendered.frame.camera.world_from_view);
-  const glm::dmat4 clip = glm::dmat4(rendered.renderer.inputs().camera.clip_from_view);
+  const Size size = rendered.frame.size;
+  const glm::dmat4 clip(make_camera_frame(rendered.frame.camera, size.width_px, size.height_px).clip_from_view);
   const glm::dmat4 upper_left =
       glm::translate(glm::dmat4(1.0), {0.5, 0.5, 0.0}) * glm::scale(glm::dmat4(1.0), {0.5, -0.5, 1.0});
   image.attributes["worldToCamera"] = floats_of(glm::scale(glm::dmat4(1.0), {1.0, 1.0, -1.0}) * view);
@@ -135,12 +136,17 @@ Image frame_image(const RenderedFrame& rendered, const nlohmann::json& facts) {
     if (std::vector<float> lengths = rendered.renderer.list_lengths(light); !lengths.empty())
       image.add("list_length" + suffix, flip_rows(std::move(lengths), in.width_px, in.height_px));
     image.add("mask" + suffix, std::move(mask));
-    add_light(image, rendered.frame.lights[light], suffix);
   }
+  add_attributes(image, rendered, facts);
+  return image;
+}
+
+void add_attributes(Image& image, const RenderedFrame& rendered, const nlohmann::json& facts) {
+  const std::vector<Light>& lights = rendered.frame.lights;
+  for (size_t light = 0; light < lights.size(); ++light) add_light(image, lights[light], channel_suffix(lights, light));
   add_camera(image, rendered);
   for (const auto& [key, value] : facts.items())
     image.attributes["izb." + key] = value.is_string() ? value.get<std::string>() : json_text(value);
-  return image;
 }
 
 double median(std::vector<double> values) {

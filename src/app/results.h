@@ -32,6 +32,9 @@ std::string channel_suffix(std::span<const Light> lights, size_t light);
 /// worldToNDC, the lights, and `facts` as text.
 Image frame_image(const RenderedFrame& rendered, const nlohmann::json& facts);
 
+/// The same attributes for another image of the frame, which need not be rendered yet.
+void add_attributes(Image& image, const RenderedFrame& rendered, const nlohmann::json& facts);
+
 double median(std::vector<double> values);
 
 /// `stages` of the JSON: name, gpu_ms (median), samples.

@@ -13,17 +13,18 @@ namespace {
 
 /// What may differ between two runs that render the same pictures.
 nlohmann::json without_outputs(nlohmann::json options) {
-  for (const char* key : {"preview", "json", "frames", "resume", "repeat", "peer"}) options.erase(key);
+  for (const char* key : {"preview", "json", "frames", "resume", "repeat", "peer", "supersample", "checkpoint"})
+    options.erase(key);
   return options;
 }
 
-std::optional<nlohmann::json> stored_facts(const std::string& path) {
+nlohmann::json stored_facts(const std::string& path) {
   if (path.ends_with(".json")) return nlohmann::json::parse(read_text_file(path));
   const auto attributes = read_exr_attributes(path);
   nlohmann::json facts;
-  for (const char* key : {"options", "scene", "frame"}) {
+  for (const char* key : {"options", "scene", "frame", "supersample", "exposure"}) {
     const auto it = attributes.find(std::string("izb.") + key);
-    if (it == attributes.end() || !std::holds_alternative<std::string>(it->second)) return {};
+    if (it == attributes.end() || !std::holds_alternative<std::string>(it->second)) continue;
     facts[key] = nlohmann::json::parse(std::get<std::string>(it->second));
   }
   return facts;
@@ -36,15 +37,14 @@ void SequenceOptions::declare(OptionSet& set) {
            "render the frames with these numbers, both included, each into files of its own: # in a file's name "
            "stands for a digit of the number; without any, .0000 comes before the extension");
   set.number("fps", fps, 0.001, 1e6, "frames a second", "with --frames: frame n shows the moment --time + n / fps");
-  set.flag("resume", resume, "with --frames: leave out the frames whose files are there already");
+  set.flag("resume", resume,
+           "with --frames: leave out the frames whose files are there already; with --supersample: go on with the "
+           "frames that the file of -o holds");
 }
 
 std::optional<FrameRange> frame_range(const SequenceOptions& options) {
   const std::string& text = options.frames;
-  if (text.empty()) {
-    if (options.resume) throw UsageError("--resume goes with --frames");
-    return {};
-  }
+  if (text.empty()) return {};
   FrameRange range;
   const char* const end = text.data() + text.size();
   const auto [after_first, error] = std::from_chars(text.data(), end, range.first);
@@ -74,21 +74,27 @@ std::string numbered(const std::string& path, int frame) {
   return (whole.parent_path() / result).string();
 }
 
-bool is_rendered(const std::string& path, const nlohmann::json& facts) {
+nlohmann::json rendered_facts(const std::string& path, const nlohmann::json& facts) {
   std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) return false;
-  std::optional<nlohmann::json> stored;
+  if (!std::filesystem::exists(path, ignored)) return {};
+  nlohmann::json stored;
   try {
     stored = stored_facts(path);
   } catch (const nlohmann::json::exception&) {
-    stored.reset();
   }
-  if (!stored || !stored->contains("options")) fail("'{}' is no frame that izb rendered, so --resume stops", path);
-  const bool same = without_outputs((*stored)["options"]) == without_outputs(facts["options"]) &&
-                    stored->value("scene", nlohmann::json()) == facts["scene"] &&
-                    stored->value("frame", nlohmann::json()) == facts["frame"];
+  if (!stored.is_object() || !stored.contains("options"))
+    fail("'{}' is no frame that izb rendered, so --resume stops", path);
+  bool same = without_outputs(stored["options"]) == without_outputs(facts["options"]) &&
+              stored.contains("supersample") == facts.contains("supersample");
+  for (const char* key : {"scene", "frame"})
+    same = same && stored.value(key, nlohmann::json()) == facts.value(key, nlohmann::json());
   if (!same) fail("'{}' was rendered with other options or of another scene, so --resume stops", path);
-  return true;
+  return stored;
+}
+
+bool is_rendered(const std::string& path, const nlohmann::json& facts) {
+  const nlohmann::json stored = rendered_facts(path, facts);
+  return !stored.is_null() && stored.value("supersample", 0) == facts.value("supersample", 0);
 }
 
 }  // namespace izb

@@ -29,9 +29,13 @@ std::optional<FrameRange> frame_range(const SequenceOptions& options);
 /// number of four digits comes before the extension. Empty for an empty path.
 std::string numbered(const std::string& path, int frame);
 
-/// Whether `path` is a frame's file, an OpenEXR or JSON one, that was rendered with the same options of the same scene;
-/// false where it does not exist. `facts` are the frame's own. Throws izb::Error where there is a file of other
-/// options.
+/// What a frame's file, an OpenEXR or JSON one, says of itself: at least `options`, `scene` and of a supersampled frame
+/// `supersample` and `exposure`, where it was rendered with the same options of the same scene, but for how many frames
+/// it is the mean of; null where it does not exist. `facts` are the frame's own. Throws izb::Error where there is a
+/// file of other options.
+nlohmann::json rendered_facts(const std::string& path, const nlohmann::json& facts);
+
+/// Whether `path` is such a file and, if supersampled, the mean of as many frames.
 bool is_rendered(const std::string& path, const nlohmann::json& facts);
 
 }  // namespace izb

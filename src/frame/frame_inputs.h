@@ -21,6 +21,9 @@ struct FrameInputs {
   bool masked_casters = false;  ///< are there any to which an alpha mask applies?
   /// The frame's triangles in view space on the CPU, in the frame's numbering; made on first use.
   std::function<const std::vector<glm::vec3>&()> triangles_vs;
+  /// A number that no other triangles have, so that what was built of them may be kept for all frames with it; 0:
+  /// nothing is to be kept.
+  uint64_t geometry = 0;
   /// Of each instance (G-buffer id - 1): its first triangle in the frame's numbering.
   const std::vector<uint32_t>* first_triangle = nullptr;
   /// For the alpha masks of techniques on the CPU: what the triangles are of; null: all are opaque.

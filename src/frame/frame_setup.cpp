@@ -39,10 +39,15 @@ shared::CameraFrame make_camera_frame(const Camera& camera, int width_px, int he
     clip[2][3] = -1.0;
   }
   shared::CameraFrame frame;
+  // What a pixel's shifted ray meets goes to the pixel's centre.
+  const glm::dvec2 shift_ndc = 2.0 * camera.pixel_shift / glm::dvec2(width, height);
+  for (int axis = 0; axis < 2; ++axis)
+    clip[camera.orthographic ? 3 : 2][axis] = camera.orthographic ? 0.0 - shift_ndc[axis] : shift_ndc[axis];
   frame.clip_from_view = glm::mat4(clip);
-  frame.pixel_ray = glm::vec4(2.0 * half_width / width, 2.0 * half_height / height, -half_width, -half_height);
-  const double pixel = 2.0 * half_height / height;
-  frame.footprint = camera.orthographic ? glm::vec4(0.0, pixel, 0.0, 0.0) : glm::vec4(pixel, 0.0, 1.0, 0.0);
+  const glm::dvec2 pixel(2.0 * half_width / width, 2.0 * half_height / height);
+  const glm::dvec2 corner = camera.pixel_shift * pixel - glm::dvec2(half_width, half_height);
+  frame.pixel_ray = glm::vec4(glm::dvec4(pixel, corner));
+  frame.footprint = camera.orthographic ? glm::vec4(0.0, pixel.y, 0.0, 0.0) : glm::vec4(pixel.y, 0.0, 1.0, 0.0);
   frame.size_px = glm::uvec4(width_px, height_px, 0, 0);
   return frame;
 }

@@ -61,6 +61,18 @@ SamplePattern read_samples(const std::string& path) {
   return pattern;
 }
 
+glm::dvec2 pixel_shift(uint32_t frame) {
+  constexpr uint32_t half = 1u << 31;
+  uint32_t x = half, y = half;  // the shift: 0 becomes the centre
+  uint32_t x_direction = half, y_direction = half;
+  for (uint32_t digits = frame; digits != 0; digits >>= 1) {
+    if (digits & 1u) x ^= x_direction, y ^= y_direction;
+    x_direction >>= 1;
+    y_direction ^= y_direction >> 1;
+  }
+  return glm::dvec2(x, y) * 0x1p-32 - 0.5;
+}
+
 void SampleOptions::declare(OptionSet& set) {
   set.choice("spp", spp, {"1", "32"}, "shadow samples a pixel");
   set.text("samples", pattern, "PATTERN|FILE",

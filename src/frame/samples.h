@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where in a pixel the shadow samples lie. A pattern is data, the same for every technique.
 #pragma once
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
@@ -27,6 +28,13 @@ SamplePattern hammersley_samples();
 /// 32 lines "x y", each in [-1/2, 1/2]; empty lines and what follows a # are skipped. Throws izb::Error that names the
 /// file and the line.
 SamplePattern read_samples(const std::string& path);
+
+/// Where in its pixel the ray of supersampled frame `frame` passes, as Camera::pixel_shift has it: in [-1/2, 1/2).
+/// Frame 0 passes through the centre. Sobol's points in base 2 in their first two dimensions, a (0, 2)-sequence: each
+/// run of 2^k from a multiple of 2^k on has one point in each box of area 2^-k that halving the pixel gives, so that
+/// any number of frames covers it evenly (I. M. Sobol', 1967; as computed by T. Kollig and A. Keller, Efficient
+/// Multidimensional Sampling, 2002, with one fixed digital shift).
+glm::dvec2 pixel_shift(uint32_t frame);
 
 /// The two options that every technique with sub-pixel samples has.
 struct SampleOptions {

@@ -26,9 +26,9 @@ gpu::Plan ShadeStage::memory_needed(int width_px, int height_px) {
   return {gpu::planned_texture("picture", GL_RGBA16F, width_px, height_px, {"--size"})};
 }
 
-void ShadeStage::begin() {
-  const shared::Exposure as_it_is{glm::vec4(1.0f)};
-  exposure_.update(0, sizeof as_it_is, &as_it_is);
+void ShadeStage::begin(float exposure) {
+  const shared::Exposure given{glm::vec4(exposure)};
+  exposure_.update(0, sizeof given, &given);
   meter_points_.fill(0);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_METER, meter_points_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_EXPOSED, exposure_.name());

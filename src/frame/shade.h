@@ -13,7 +13,8 @@ class ShadeStage {
  public:
   ShadeStage();
   void resize(int width_px, int height_px);
-  void begin();
+  /// Strengths are multiplied by `exposure` unless expose() says otherwise.
+  void begin(float exposure = 1.0f);
   /// Adds what the bound light brings to points all over the picture.
   void measure();
   /// Makes the measured light as bright as a sun alone would be.

@@ -13,6 +13,9 @@ inline constexpr std::array<const char*, 6> stage_names{"gbuffer", "bounds", "bu
 /// Before them, and none of the paper's: the vertices of meshes that deform. Absent where there are none.
 inline constexpr const char* deform_name = "deform";
 
+/// After them, of supersampled frames only.
+inline constexpr const char* accumulate_name = "accumulate";
+
 inline constexpr const char* name(Stage stage) {
   return stage_names[static_cast<size_t>(stage)];
 }

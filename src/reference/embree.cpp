@@ -5,6 +5,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <mutex>
 #include <string>
 
 #include "base/error.h"
@@ -266,9 +267,27 @@ struct RayTracer::State {
     return query;
   }
 
-  // Of each triangle whether its plane holds the light; empty if none does.
-  std::vector<uint8_t> triangles_that_hold(const LightPoint& light) const {
+  using Holding = std::shared_ptr<const std::vector<uint8_t>>;
+  // Of the last lights that were asked for: a frame with several asks for each in turn.
+  struct Held {
+    LightPoint light;
+    Holding triangles;
+  };
+  static constexpr size_t most_held = 8;
+  mutable std::vector<Held> held;
+  mutable std::mutex held_guard;
+
+  // Of each triangle whether its plane holds the light; null if none does.
+  Holding triangles_that_hold(const LightPoint& light) const {
     if (!light.positional) return {};
+    const std::scoped_lock lock(held_guard);
+    for (const Held& known : held)
+      if (known.light.xyz_vs == light.xyz_vs && known.light.band == light.band) return known.triangles;
+    if (held.size() == most_held) held.erase(held.begin());
+    return held.emplace_back(Held{light, find_triangles_that_hold(light)}).triangles;
+  }
+
+  Holding find_triangles_that_hold(const LightPoint& light) const {
     const glm::vec3* const vertices = this->vertices();
     std::vector<uint8_t> holding(triangle_count);
     std::atomic<bool> any{false};
@@ -276,7 +295,7 @@ struct RayTracer::State {
       for (size_t t = begin; t < end; ++t)
         if (holds_light({vertices[3 * t], vertices[3 * t + 1], vertices[3 * t + 2]}, light)) holding[t] = 1, any = true;
     });
-    return any ? holding : std::vector<uint8_t>();
+    return any ? std::make_shared<const std::vector<uint8_t>>(std::move(holding)) : nullptr;
   }
 
   void check(const char* what) const {
@@ -347,10 +366,10 @@ MaskTrace RayTracer::trace_mask(const LightPoint& light, const Receivers& receiv
   if (width != 0 && count % width != 0) fail("cannot trace a mask: {} points do not fill rows of {}", count, width);
   MaskTrace result;
   result.mask.resize(count);
-  const std::vector<uint8_t> holding = s.triangles_that_hold(light);
+  const State::Holding holding = s.triangles_that_hold(light);
   Query query = s.query();
   query.own_triangle = receivers.own_triangle.data();
-  query.holding = holding.empty() ? nullptr : holding.data();
+  query.holding = holding ? holding->data() : nullptr;
   std::atomic<uint64_t> rays{0};
   const auto start = std::chrono::steady_clock::now();
   if (width == 0) {

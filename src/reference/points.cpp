@@ -286,7 +286,8 @@ PixelRays pixel_rays(const Camera& camera, int width_px, int height_px) {
   rays.t_near = camera.near_plane, rays.t_far = camera.far_plane;
   const double half_height = camera.orthographic ? camera.ymag : std::tan(0.5 * camera.yfov_rad);
   const double step = 2.0 * half_height / height_px;  // pixels are square
-  const glm::dvec3 first(0.5 * step * (1.0 - width_px), 0.5 * step * (height_px - 1.0), 0.0);
+  const glm::dvec2 shift = camera.pixel_shift;
+  const glm::dvec3 first(step * (0.5 * (1.0 - width_px) + shift.x), step * (0.5 * (height_px - 1.0) + shift.y), 0.0);
   const glm::dvec3 right(step, 0.0, 0.0), down(0.0, -step, 0.0);
   if (camera.orthographic) {
     rays.origin = first, rays.origin_dx = right, rays.origin_dy = down;

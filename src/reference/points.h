@@ -25,8 +25,8 @@ struct PixelRays {
   glm::dvec3 direction_at(double x, double y) const { return direction + x * direction_dx + y * direction_dy; }
 };
 
-/// The rays of a camera through the pixel centres. Directions have z = -1, so t is the distance along the
-/// view axis and t_near and t_far are the camera's planes.
+/// The rays of a camera through the pixel centres, or beside them by its pixel shift. Directions have z = -1, so t is
+/// the distance along the view axis and t_near and t_far are the camera's planes.
 PixelRays pixel_rays(const Camera& camera, int width_px, int height_px);
 
 /// What check_points found. checked = ok + near_edge + depth_tie + near_cutoff + wrong.

@@ -122,6 +122,9 @@ struct Camera {
   double near_plane = 0.01;
   double far_plane = std::numeric_limits<double>::infinity();
   int node = -1;  ///< that places it, -1: none
+  /// Where in its pixel each ray passes: in pixels from the centre, x right, y up. Triangles in view space do not
+  /// depend on it.
+  glm::dvec2 pixel_shift{0.0};
 };
 
 struct Bounds {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/renderer.h"
 
+#include <atomic>
 #include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "base/error.h"
@@ -17,6 +19,27 @@ uint64_t sum_of(const Counts& counts) {
   uint64_t sum = 0;
   for (const auto& [name, count] : counts) sum += count;
   return sum;
+}
+
+/// Everything that pose() can change and the triangles in view space follow from, as it is in memory.
+std::vector<std::byte> placement_of(const Scene& scene, const std::vector<shared::InstanceFrame>& instances) {
+  std::vector<std::byte> bytes;
+  const auto append = [&](const auto& values) {
+    const auto more = std::as_bytes(std::span(values));
+    bytes.insert(bytes.end(), more.begin(), more.end());
+  };
+  append(instances);
+  for (const Instance& instance : scene.instances) {
+    if (!instance.deforms()) continue;
+    append(make_joint_frames(scene, instance));
+    append(instance.morph_weights);
+  }
+  return bytes;
+}
+
+uint64_t new_geometry() {
+  static std::atomic<uint64_t> last{0};
+  return ++last;
 }
 
 int most_faces(const std::vector<Light>& lights, const GridRequest& grid) {
@@ -55,7 +78,7 @@ void Renderer::prepare(Technique& technique, int width_px, int height_px, const 
   room_ = gpu::memory_room(capabilities_, held);
   gpu::expect_room(memory_needed(technique, width_px, height_px, lights), room_, capabilities_);
   technique_ = &technique;
-  common_ = {};
+  common_ = {};  // and with it the number of what was kept
   common_.samples = technique.samples();
   const bool micro_quads = common_.samples.count() > 1;
   gbuffer_.resize(width_px, height_px, micro_quads, *buffers_);
@@ -112,12 +135,12 @@ void Renderer::render(const Camera& camera, const std::vector<Light>& lights, gp
   if (lights.size() != visibility_.size()) throw std::logic_error("a frame with other lights than were prepared for");
   common_.eye = camera;
   common_.camera = make_camera_frame(camera, common_.width_px, common_.height_px);
+  instances_ = make_instance_frames(camera, scene_, buffers_->draw_list());
+  renew_geometry();
   inputs_.assign(lights.size(), common_);
   faults_.assign(lights.size(), {});
   for (size_t i = 0; i < lights.size(); ++i)
     inputs_[i].light = make_light_frame(camera, common_.camera, lights[i], technique_->grid());
-  instances_ = make_instance_frames(camera, scene_, buffers_->draw_list());
-  triangles_vs_.clear();
   pose(timers);
   camera_block_.set(common_.camera);
   bind_frame();
@@ -129,6 +152,22 @@ void Renderer::render(const Camera& camera, const std::vector<Light>& lights, gp
     if (lights.size() > 1) faults_[i] = technique_->fault();  // the next light's frame takes its place
   }
   shade(camera, lights, timers);
+}
+
+void Renderer::keep_geometry(bool keep) {
+  keeps_geometry_ = keep;
+  common_.geometry = 0;
+  placement_.clear();
+}
+
+void Renderer::renew_geometry() {
+  if (keeps_geometry_) {
+    std::vector<std::byte> placement = placement_of(scene_, instances_);
+    if (common_.geometry != 0 && placement == placement_) return;
+    placement_ = std::move(placement);
+    common_.geometry = new_geometry();
+  }
+  triangles_vs_.clear();
 }
 
 void Renderer::pose(gpu::StageTimers& timers) {
@@ -147,8 +186,8 @@ void Renderer::shade(const Camera& camera, const std::vector<Light>& lights, gpu
     light_block_.bind();
     shade_block_.bind();
   };
-  shade_.begin();
-  if (exposure_is_measured(lights)) {
+  shade_.begin(given_exposure_.value_or(1.0f));
+  if (!given_exposure_ && exposure_is_measured(lights)) {
     for (size_t i = 0; i < lights.size(); ++i) {
       bind(i);
       shade_.measure();

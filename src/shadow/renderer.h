@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The spine: gbuffer, bounds, [build, zcull, visibility: the technique's], shade.
 #pragma once
+#include <optional>
+
 #include "frame/bounds.h"
 #include "frame/scene_buffers.h"
 #include "frame/shade.h"
@@ -27,6 +29,12 @@ class Renderer {
   /// One frame: the G-buffer, a mask for each light, one picture of all. Stage times go to `timers`, summed over the
   /// lights once it collects.
   void render(const Camera& camera, const std::vector<Light>& lights, gpu::StageTimers& timers);
+
+  /// From now on frames whose triangles in view space are those of the frame before keep their number, see
+  /// FrameInputs::geometry, and a technique may keep what it built. Off at first: what is built counts as the frame's.
+  void keep_geometry(bool keep);
+  /// From now on pictures have this exposure; nothing: each measures its own, as at first.
+  void expose_as(std::optional<float> exposure) { given_exposure_ = exposure; }
 
   size_t light_count() const { return inputs_.size(); }
   /// Of the last frame under its light number `light`.
@@ -67,6 +75,8 @@ class Renderer {
   /// So that the technique is as that light left it.
   void select_again(size_t light);
   void bind_frame();
+  /// Forgets the last frame's triangles, unless they are kept and still the same.
+  void renew_geometry();
   void pose(gpu::StageTimers& timers);
   void shade(const Camera& camera, const std::vector<Light>& lights, gpu::StageTimers& timers);
 
@@ -90,6 +100,9 @@ class Renderer {
   uint64_t placed_ = 0;  ///< SceneBuffers::updates() after its last frame's
   std::vector<shared::InstanceFrame> instances_;
   std::vector<glm::vec3> triangles_vs_;  ///< of the last frame, once asked for
+  bool keeps_geometry_ = false;
+  std::vector<std::byte> placement_;  ///< all that the kept triangles follow from, but for what is constant in a scene
+  std::optional<float> given_exposure_;
 };
 
 }  // namespace izb

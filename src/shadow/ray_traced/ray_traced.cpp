@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/ray_traced/ray_traced.h"
 
+#include <optional>
+
 #include "frame/read_back.h"
 #include "frame/spine.h"
 #include "reference/embree.h"
@@ -42,11 +44,30 @@ class RayTraced final : public Technique {
   std::vector<gpu::ProgramSpec> program_specs() const override { return {}; }
 
  private:
-  uint64_t trace(const FrameInputs& in, Visibility& out) const {
-    const auto quality = quality_ == "low"      ? reference::BuildQuality::low
-                         : quality_ == "medium" ? reference::BuildQuality::medium
-                                                : reference::BuildQuality::high;
-    const reference::RayTracer tracer(make_triangles(in), quality);
+  reference::BuildQuality quality() const {
+    return quality_ == "low"      ? reference::BuildQuality::low
+           : quality_ == "medium" ? reference::BuildQuality::medium
+                                  : reference::BuildQuality::high;
+  }
+
+  /// A hierarchy over the frame's triangles: that of the frame before where the renderer says that they are the same.
+  const reference::RayTracer& tracer_of(const FrameInputs& in) {
+    const Built wanted{in.geometry, quality()};
+    if (in.geometry == 0 || !tracer_ || built_ != wanted) {
+      tracer_.reset();  // two have no room
+      tracer_.emplace(make_triangles(in), wanted.quality);
+      built_ = wanted;
+    }
+    return *tracer_;
+  }
+
+  uint64_t trace(const FrameInputs& in, Visibility& out) {
+    const uint64_t rays = trace(tracer_of(in), in, out);
+    if (in.geometry == 0) tracer_.reset();
+    return rays;
+  }
+
+  static uint64_t trace(const reference::RayTracer& tracer, const FrameInputs& in, Visibility& out) {
     const reference::Receivers receivers = make_receivers(read_gbuffer(*in.gbuffer), in);
     const reference::MaskTrace traced = tracer.trace_mask(make_light_point(in.light), receivers);
     const std::vector<uint32_t> bottom_first = flip_rows(traced.mask, in.width_px, in.height_px);
@@ -55,9 +76,18 @@ class RayTraced final : public Technique {
     return traced.rays;
   }
 
+  /// What a hierarchy was built of, and how.
+  struct Built {
+    uint64_t geometry = 0;
+    reference::BuildQuality quality{};
+    bool operator==(const Built&) const = default;
+  };
+
   SampleOptions sampling_;
   std::string quality_ = "medium";
   bool nl_cull_ = true;
+  std::optional<reference::RayTracer> tracer_;  ///< kept between frames of the same geometry only
+  Built built_;
 };
 
 }  // namespace

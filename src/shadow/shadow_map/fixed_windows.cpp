@@ -9,11 +9,18 @@ namespace {
 
 constexpr double none = 3.0e38;
 
-/// Half of what the camera sees at eye distance t.
-glm::dvec2 half_size(const shared::CameraFrame& frame, double t) {
-  const glm::dvec2 half(-double(frame.pixel_ray.z), -double(frame.pixel_ray.w));
-  return shared::is_perspective(frame) ? half * t : half;
-}
+/// The frame's camera, and how far its rays are shifted within their pixels: windows follow from what it sees without.
+struct View {
+  const shared::CameraFrame& frame;
+  glm::dvec2 shift_px;
+
+  /// Half of what the camera sees at eye distance t.
+  glm::dvec2 half_size(double t) const {
+    const glm::dvec4 ray(frame.pixel_ray);
+    const glm::dvec2 half = shift_px * glm::dvec2(ray.x, ray.y) - glm::dvec2(ray.z, ray.w);
+    return shared::is_perspective(frame) ? half * t : half;
+  }
+};
 
 struct Box {
   glm::dvec3 low{none}, high{-none};
@@ -38,22 +45,22 @@ shared::LightWindow window_of(const Box& box, double side, double margin) {
   return w;
 }
 
-Box slice_box(const shared::CameraFrame& frame, const shared::LightFrame& light, double t0, double t1) {
+Box slice_box(const View& view, const shared::LightFrame& light, double t0, double t1) {
   Box box;
   for (const double t : {t0, t1})
     for (const double x : {-1.0, 1.0})
       for (const double y : {-1.0, 1.0}) {
-        const glm::dvec2 half = half_size(frame, t);
+        const glm::dvec2 half = view.half_size(t);
         box.add(light_from_view(light, {x * half.x, y * half.y, -t}));
       }
   return box;
 }
 
 /// The box of the slice's smallest sphere around a point of the view's axis, moved to whole texels of the world.
-Box stable_box(const Camera& camera, const shared::CameraFrame& frame, const shared::LightFrame& light, double t0,
-               double t1, double texels) {
-  const double near2 = glm::dot(half_size(frame, t0), half_size(frame, t0));
-  const double far2 = glm::dot(half_size(frame, t1), half_size(frame, t1));
+Box stable_box(const Camera& camera, const View& view, const shared::LightFrame& light, double t0, double t1,
+               double texels) {
+  const double near2 = glm::dot(view.half_size(t0), view.half_size(t0));
+  const double far2 = glm::dot(view.half_size(t1), view.half_size(t1));
   const double center = std::min(t1, 0.5 * (t0 + t1) + 0.5 * (far2 - near2) / std::max(t1 - t0, 1e-12));
   const double radius =
       std::sqrt(std::max(far2 + (t1 - center) * (t1 - center), near2 + (center - t0) * (center - t0)));
@@ -101,12 +108,13 @@ FixedWindows make_fixed_windows(const Camera& camera, const shared::CameraFrame&
       fixed.windows[static_cast<size_t>(face * cascades)] = window_of(box, side, margin);
     return fixed;
   }
+  const View view{frame, camera.pixel_shift};
   const std::vector<double> ends = split_frustum(near, distance, fit.lambda, cascades);
   double start = near;
   for (int i = 0; i < cascades; ++i) {
     const double end = ends[static_cast<size_t>(i)];
-    const Box box = fit.stable ? stable_box(camera, frame, light, start, end, side - 2.0 - 2.0 * margin)
-                               : slice_box(frame, light, start, end);
+    const Box box = fit.stable ? stable_box(camera, view, light, start, end, side - 2.0 - 2.0 * margin)
+                               : slice_box(view, light, start, end);
     fixed.windows[static_cast<size_t>(i)] = window_of(box, side, margin);
     if (i < cascades - 1) fixed.range.ends[i / 4][i % 4] = float(end);
     start = end;
