@@ -2,7 +2,7 @@
 // A plot as an SVG file that stands alone, with its title and legend, in the colours of the page as it is.
 "use strict";
 (function () {
-  const properties = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-opacity", "opacity", "font-family",
+  const properties = ["display", "shape-rendering", "fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-opacity", "opacity", "font-family",
     "font-size", "font-weight", "font-variant-numeric", "paint-order", "stroke-linejoin"];
 
   /// What the page's styles make of an element becomes its own.

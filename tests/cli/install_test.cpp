@@ -18,8 +18,10 @@ TEST(Install, TheInstalledProgramRunsFromItsOwnFiles) {
   const fs::path program = prefix / "bin" / "izb";
   EXPECT_EQ(run_program({program, "--version"}).out, izb::test::izb({"--version"}).out);
   for (const char* file : {"share/izb/glsl/frame/6_shade.comp.glsl", "share/izb/views.json", "share/izb/garden.glb",
-                           "share/doc/izb/LICENSE", "share/doc/izb/CITATION.cff"})
+                           "share/izb/report/report.css", "share/izb/report/plots.js",
+                           "share/izb/report/d3_licence.txt", "share/doc/izb/LICENSE", "share/doc/izb/CITATION.cff"})
     EXPECT_TRUE(fs::is_regular_file(prefix / file)) << file;
+  EXPECT_EQ(fs::is_regular_file(prefix / "share/izb/report/d3.min.js"), fs::is_regular_file(IZB_D3));
 
   const fs::path scene = write_file(folder / "roof.glb", roof_over_floor().glb());
   const std::vector<std::string> render{program, "render", scene, "-o", folder / "frame.exr", "--size", "32x18"};

@@ -40,6 +40,7 @@
     same("gaps", all(".line", drawing("frames")).map((path) => path.getAttribute("d").split("M").length - 1), [2, 3]);
     same("a value between gaps is marked", all(".symbol", drawing("frames")).length, 1);
     same("stacked bars", all(".bar", drawing("stages")).length, 6 * 6 * 2 - 2);
+    same("bars begin at zero", ticks("stages")[0], "0");
     same("the paper's are hatched", all(".bar", drawing("stages")).filter((bar) => bar.style.fill.includes("-hatch-")).length, 6 * 6);
     same("a sum without a part says so", all(".value", drawing("stages")).filter((text) => text.textContent.endsWith("without visibility")).length, 2);
     same("seventeen categories", all(".category", drawing("ablation")).length, 17);
