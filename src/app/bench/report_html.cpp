@@ -297,12 +297,13 @@ std::string facts_html(const std::vector<Fact>& facts) {
 }
 
 std::string plot_html(const Plot& plot, bool with_plots) {
-  const std::string drawing = with_plots
-                                  ? fmt::format(
-                                        "<noscript><p class=\"absent\">The plot takes JavaScript.</p></noscript>\n"
-                                        "<script type=\"application/json\">{}</script>\n",
-                                        script_json(plot_json(plot)))
-                                  : "<p class=\"absent\">The plot is not drawn: this build of izb has no d3.</p>\n";
+  const std::string drawing =
+      with_plots
+          ? fmt::format(
+                "<noscript><p class=\"absent\">The plot takes JavaScript; its values are below.</p></noscript>\n"
+                "<script type=\"application/json\">{}</script>\n",
+                script_json(plot_json(plot)))
+          : "<p class=\"absent\">The plot is not drawn: this build of izb has no d3. Its values are below.</p>\n";
   return fmt::format(
       "<figure class=\"plot {}\" id=\"{}-plot\">\n<figcaption><span class=\"title\">{}</span> {}{}</figcaption>\n{}"
       "<details class=\"values\"><summary id=\"{}-caption\">Values</summary>\n{}</details>\n</figure>\n",
