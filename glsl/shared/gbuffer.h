@@ -40,7 +40,8 @@ SHARED ReceiverPlane intersect_plane(IN(CameraFrame) camera, IN(vec2) px, IN(vec
   PRECISE double t = distance / slope;
   double t_min = -double(max(a.z, max(b.z, c.z)));
   double t_max = -double(min(a.z, min(b.z, c.z)));
-  double length = t_max - t_min;
+  // 2^-40 of the distance more, since one that faces the camera has none, and t is rounded.
+  double length = (t_max - t_min) + 9.0949470177292824e-13 * max(abs(t_min), abs(t_max));
   double crossing = t;
   if (!(t > t_min - length)) t = t_min - length;  // also NaN
   if (t > t_max + length) t = t_max + length;

@@ -45,6 +45,19 @@ TEST(SharedCamera, ASliverSeenEdgeOnStaysNearItsVertices) {
   }
 }
 
+TEST(SharedCamera, ATriangleThatFacesTheCameraExactlyIsNotSeenEdgeOn) {
+  Random random(23);
+  const shared::CameraFrame camera = perspective_camera();
+  for (int i = 0; i < 10'000; ++i) {
+    const double t = std::pow(10.0, random.uniform(-2.0, 5.0));
+    const auto corner = [&] { return glm::vec3(glm::dvec2(random.point(t)), -t); };
+    const glm::vec2 px(float(random.below(1920)) + 0.5f, float(random.below(1080)) + 0.5f);
+    const shared::ReceiverPlane r = shared::intersect_plane(camera, px, corner(), corner(), corner());
+    EXPECT_TRUE(r.on_plane) << i;
+    EXPECT_EQ(r.eye_distance, float(t));
+  }
+}
+
 TEST(SharedCamera, OctahedralNormalsSurviveARoundTrip) {
   Random random(22);
   for (int i = 0; i < 10'000; ++i) {
