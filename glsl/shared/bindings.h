@@ -49,6 +49,7 @@
 #define UNIT_HEADS 6
 #define UNIT_NODES 7
 #define UNIT_FURTHEST 8
+#define UNIT_TESTS 8
 #define UNIT_MASK 9
 #define UNIT_PYRAMID 10
 #define UNIT_MICRO_QUAD 11

@@ -226,6 +226,12 @@ std::vector<float> Renderer::fragments_a_texel(size_t light) {
   return technique_->fragments_a_texel(inputs_[light], visibility_[light]);
 }
 
+std::optional<SpeedOfLight> Renderer::speed_of_light(size_t light, int repeats) {
+  if (repeats < 1) throw std::logic_error("the speed of light of no repeat");
+  select_again(light);
+  return technique_->speed_of_light(inputs_[light], visibility_[light], repeats);
+}
+
 std::vector<uint64_t> Renderer::list_histogram(size_t light) {
   select_again(light);
   return technique_->list_histogram(inputs_[light]);

@@ -54,6 +54,7 @@ class Renderer {
   std::vector<uint64_t> list_histogram(size_t light = 0);
   std::vector<float> tests_a_pixel(size_t light = 0);
   std::vector<float> fragments_a_texel(size_t light = 0);
+  std::optional<SpeedOfLight> speed_of_light(size_t light, int repeats);
 
   const BoundsStage& bounds() const { return bounds_; }
   const SceneBuffers& scene_buffers() const { return *buffers_; }

@@ -3,6 +3,7 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,14 @@ struct TechniqueInfo {
 
 /// Named counts of one frame, in order of display.
 using Counts = std::vector<std::pair<std::string, uint64_t>>;
+
+/// What the tests of one frame take when nothing but them is done (Wyman et al. 2015, table 2).
+struct SpeedOfLight {
+  uint64_t tests = 0;  ///< frustum-triangle tests of the frame, each one invocation
+  std::vector<double>
+      ms;  ///< of each repeat: all of the tests, and those in double that single precision left undecided
+  bool same_mask = false;  ///< every repeat gave the frame's mask, bit for bit
+};
 
 class Technique {
  public:
@@ -67,6 +76,10 @@ class Technique {
   /// all layers, as IzbInternals::texel() counts them; empty if it has none.
   virtual std::vector<float> tests_a_pixel(const FrameInputs&, Visibility&) { return {}; }
   virtual std::vector<float> fragments_a_texel(const FrameInputs&, Visibility&) { return {}; }
+  /// Stores the tests of the last frame and times them alone, `repeats` times, at least once; out.mask is as after
+  /// render(). Nothing if it has no such tests. Throws izb::Error if there is no memory for their list, or it cannot
+  /// address them.
+  virtual std::optional<SpeedOfLight> speed_of_light(const FrameInputs&, Visibility&, int /*repeats*/) { return {}; }
   /// Every program that it can compile: the defaults and each option alone. Needs no GL.
   virtual std::vector<gpu::ProgramSpec> program_specs() const = 0;
 };

@@ -1,33 +1,23 @@
 #version 450 core
 // 5.5 Each fragment walks its texel's list, tests each listed pixel against the triangle, and adds shadow to its mask.
 // Defines, beside those of receivers.glsl and coverage.glsl: LAYERS: several layers; PIPELINE: fetch one node ahead (6.8);
-// COUNT: count fragments and tests; COUNT_TESTS, COUNT_FRAGMENTS: also those of each pixel, of each texel; IN_DOUBLE: decide
-// unsure pairs here (when their list overflowed); HW: hardware chose the texels. MASKED: triangles have an alpha mask, see
-// cutout.glsl.
+// COUNT: count fragments and tests; COUNT_TESTS, COUNT_FRAGMENTS: also those of each pixel, of each texel; STORE_TESTS: store
+// each test for 5_visibility_speed_of_light.comp.glsl; IN_DOUBLE: decide unsure pairs here (when their list overflowed); HW:
+// hardware chose the texels. MASKED: triangles have an alpha mask, see cutout.glsl.
 #include "shared/bindings.h"
-#include "shared/occlusion.h"
-#include "shared/pairs.h"
-#include "shadow/izb/receivers.glsl"
-#ifdef SPP32
-#include "shadow/izb/coverage.glsl"
-#endif
-#ifdef MASKED
-#include "shadow/izb/cutout.glsl"
-#endif
+#include "shadow/izb/pair_test.glsl"
 
 // Without it fragments that z-cull rejects would still have their side effects.
 layout(early_fragment_tests) in;
 
-layout(std140, binding = BIND_CAMERA) uniform CameraBlock { CameraFrame camera; };
-layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
-layout(std430, binding = BIND_COUNTERS) buffer CounterBlock { Counters counters; };
-layout(std430, binding = BIND_PAIRS) writeonly buffer PairBlock { UnsurePair pairs[]; };
-layout(binding = UNIT_ID) uniform usampler2D id_texture;
 #ifdef COUNT_TESTS
 layout(binding = IMAGE_WORK, r32ui) uniform uimage2D tests_a_pixel;
 #endif
 #ifdef COUNT_FRAGMENTS
 layout(binding = IMAGE_WORK, r32ui) uniform uimage2DArray fragments_a_texel;
+#endif
+#ifdef STORE_TESTS
+layout(binding = IMAGE_WORK, rg32ui) writeonly uniform uimage2D stored_tests;
 #endif
 
 layout(location = 0) flat in vec3 g_a;
@@ -48,30 +38,12 @@ layout(std430, binding = BIND_INSTANCES) readonly buffer InstanceBlock { Instanc
 layout(std140, binding = BIND_WINDOWS) uniform WindowBlock { LightWindow windows[max_layers]; };
 #endif
 
-#ifdef SPP32
-#define Planes QuadTriangle
-#else
-#define Planes TrianglePlanes
-#endif
-
-struct Triangle {
-  Planes planes;
+Triangle fragment_triangle(CameraFrame eye) {
 #ifdef MASKED
-  Cutout cutout;
-#endif
-};
-
-Triangle make_triangle(CameraFrame eye) {
-  Triangle t;
-#ifdef SPP32
-  t.planes = make_quad_triangle(eye, light, g_a, g_b, g_c);
+  return make_triangle(eye, g_a, g_b, g_c, make_cutout(instances[g_id.x - 1u].info.y, g_uv_a, g_uv_b, g_uv_c));
 #else
-  t.planes = make_planes(light, g_a, g_b, g_c);
+  return make_triangle(eye, g_a, g_b, g_c);
 #endif
-#ifdef MASKED
-  t.cutout = make_cutout(instances[g_id.x - 1u].info.y, g_uv_a, g_uv_b, g_uv_c);
-#endif
-  return t;
 }
 
 #ifdef ALPHA_FRAGMENT
@@ -86,43 +58,14 @@ bool is_hole(Triangle t, int layer) {
 }
 #endif
 
-void add_pair(ivec2 px) {
-  uint i = atomicAdd(counters.pairs, 1u);
-  if (i < counters.capacity) pairs[i] = UnsurePair(node_from_pixel(px, 0), g_id.x - 1u, g_id.y, 0u);
+#ifdef STORE_TESTS
+void store_test(ivec2 px) {
+  int i = int(atomicAdd(counters.stored, 1u));
+  if (!is_storable(g_id)) counters.unstorable = 1u;
+  // A store beyond the image's end has no effect.
+  imageStore(stored_tests, ivec2(i % tests_a_row, i / tests_a_row), uvec4(stored_test(px, g_id), 0u, 0u));
 }
-
-// The mask bits of one pair.
-uint test(CameraFrame eye, Triangle triangle, Receiver r, out bool unsure) {
-#ifdef SPP32
-  uint bits = classify_quad(eye, triangle.planes, make_micro_quad(eye, r.px, r.data), unsure);
-#ifdef IN_DOUBLE
-  if (unsure) bits = occluded_bits(quad_planes(eye, light, g_a, g_b, g_c, r.px, r.data));
 #endif
-#ifdef ALPHA_EXACT
-  bits &= ~known_shadow(r.px);  // whose alpha need not be asked
-  if (bits != 0u) {
-    uint undecided;
-    bits = uncut_bits(triangle.cutout, quad_planes(eye, light, g_a, g_b, g_c, r.px, r.data), bits, undecided);
-    if (undecided != 0u) counters.unfinished = 1u;
-  }
-#endif
-#else
-  vec3 p = receiver_point(eye, vec2(r.px) + 0.5, r.data.x);
-  int answer = classify(eye, triangle.planes, p, r.data.x);
-  unsure = answer == pair_unsure;
-#ifdef IN_DOUBLE
-  if (unsure) answer = occludes(eye, light, g_a, g_b, g_c, p, r.data.x) ? pair_in : pair_out;
-#endif
-#ifdef ALPHA_EXACT
-  if (answer == pair_in && !is_uncut(triangle.cutout, light, p, g_a, g_b, g_c)) answer = pair_out;
-#endif
-  uint bits = answer == pair_in ? 0xffffffffu : 0u;
-#endif
-#ifdef IN_DOUBLE
-  unsure = false;
-#endif
-  return bits;
-}
 
 struct Walk {
   Receiver previous;
@@ -160,7 +103,10 @@ bool walk(CameraFrame eye, Triangle triangle, ivec3 head_texel, inout Walk w, ou
 #ifdef COUNT_TESTS
     imageAtomicAdd(tests_a_pixel, px, 1u);
 #endif
-    uint bits = test(eye, triangle, r, unsure);
+#ifdef STORE_TESTS
+    store_test(px);
+#endif
+    uint bits = test(eye, triangle, r.px, r.data, unsure);
     if (bits != 0u && !add_shadow(px, bits)) ++w.unchanged;
   }
   return unsure;
@@ -173,7 +119,7 @@ void main() {
   if (any(lessThan(gl_FragCoord.xy, g_box.xy)) || any(greaterThan(gl_FragCoord.xy, g_box.zw))) discard;
 #endif
   CameraFrame eye = camera;  // read once, not in every round of the loop
-  Triangle triangle = make_triangle(eye);
+  Triangle triangle = fragment_triangle(eye);
 #ifdef LAYERS
   ivec3 head_texel = ivec3(gl_FragCoord.xy, gl_Layer);
 #else
@@ -193,8 +139,7 @@ void main() {
   if (!unsure && w.node == no_node) discard;
 #endif
   while (unsure) {
-    // A receiver's own triangle, the commonest of them, lies within the bias of its plane and never occludes it.
-    if (texelFetch(id_texture, px, 0).xy != g_id) add_pair(px);
+    add_pair(px, g_id);
     unsure = walk(eye, triangle, head_texel, w, px);
   }
   // llvmpipe ends all loops of an invocation after 65,535 rounds.

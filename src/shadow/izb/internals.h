@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shared/lists.h"
+#include "shared/pairs.h"
 #include "shared/pyramid.h"
 
 namespace izb {
@@ -36,5 +37,9 @@ struct IzbInternals {
     return pyramid[(size_t(layer) * pyramid_size.y + p.y) * pyramid_size.x + p.x];
   }
 };
+
+/// 64-bit counts of a counting pass.
+uint64_t fragments_of(const shared::Counters& c);
+uint64_t tests_of(const shared::Counters& c);
 
 }  // namespace izb

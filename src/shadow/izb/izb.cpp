@@ -250,10 +250,22 @@ void Izb::draw(const FrameInputs& in, const Pass& pass) {
   glDisable(GL_DEPTH_TEST);
 }
 
-void Izb::visibility(const FrameInputs& in, Visibility& out, const Pass& pass) {
+void Izb::reset_counters() {
   shared::Counters fresh{};
   fresh.capacity = static_cast<uint32_t>(built_.pair_capacity);
   counters_.update(0, sizeof fresh, &fresh);
+}
+
+// The pairs that are listed, in double.
+void Izb::settle(const FrameInputs& in) {
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  const bool masks = in.masked_casters && knows_masks(IzbProgram::settle, built_);
+  // A pair of a mask takes up to nine rounds of loops.
+  programs_.get(IzbProgram::settle, masks).dispatch(masks ? 64 * 256 : 64 * 16, 1, 64, 1);
+}
+
+void Izb::visibility(const FrameInputs& in, Visibility& out, const Pass& pass) {
+  reset_counters();
   out.mask.clear_uint(0);
 
   glBindFramebuffer(GL_FRAMEBUFFER, light_framebuffer_.name());
@@ -263,10 +275,7 @@ void Izb::visibility(const FrameInputs& in, Visibility& out, const Pass& pass) {
   glEnable(GL_DEPTH_CLAMP);
   draw(in, pass);
 
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  const bool masks = in.masked_casters && knows_masks(IzbProgram::settle, built_);
-  // A pair of a mask takes up to nine rounds of loops.
-  programs_.get(IzbProgram::settle, masks).dispatch(masks ? 64 * 256 : 64 * 16, 1, 64, 1);
+  settle(in);
 
   glBindVertexArray(no_attributes_.name());
   glBeginQuery(GL_ANY_SAMPLES_PASSED, overflow_.name());
@@ -286,7 +295,7 @@ void Izb::visibility(const FrameInputs& in, Visibility& out, const Pass& pass) {
 shared::Counters Izb::visibility_counted(const FrameInputs& in, Visibility& out, const Pass& pass) {
   restore_lists(in);
   visibility(in, out, pass);
-  return counters_.read<shared::Counters>(1)[0];
+  return read_counters();
 }
 
 std::unique_ptr<Technique> make_izb() {

@@ -40,6 +40,7 @@ class Izb final : public Technique {
   std::vector<uint64_t> list_histogram(const FrameInputs& in) override;
   std::vector<float> tests_a_pixel(const FrameInputs& in, Visibility& out) override;
   std::vector<float> fragments_a_texel(const FrameInputs& in, Visibility& out) override;
+  std::optional<SpeedOfLight> speed_of_light(const FrameInputs& in, Visibility& out, int repeats) override;
   std::vector<gpu::ProgramSpec> program_specs() const override { return izb_program_specs(); }
 
   /// Reads back what `build` and `zcull` left of the last frame; with removal the lists are what `visibility` left,
@@ -68,12 +69,17 @@ class Izb final : public Technique {
   void pyramid(int layers);
   void visibility(const FrameInputs& in, Visibility& out, const Pass& pass);
   void bind_lists(const Visibility& out) const;
+  void settle(const FrameInputs& in);
   void draw(const FrameInputs& in, const Pass& pass);
   void draw_by_footprint(const FrameInputs& in, IzbProgram program, Drawn drawn);
   void draw_by_hardware(const FrameInputs& in, IzbProgram program, Drawn drawn);
   shared::Counters visibility_counted(const FrameInputs& in, Visibility& out, const Pass& pass);
 
   std::vector<float> work(const FrameInputs& in, Visibility& out, IzbProgram program, gpu::Texture sums);
+  gpu::Texture store_tests(const FrameInputs& in, Visibility& out, uint32_t& stored);
+  void test_stored(const FrameInputs& in, uint32_t stored);
+  void reset_counters();
+  shared::Counters read_counters() const { return counters_.read<shared::Counters>(1)[0]; }
   void restore_lists(const FrameInputs& in);
   IzbLists read_lists() const;
 

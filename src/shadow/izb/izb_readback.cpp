@@ -9,8 +9,6 @@
 
 namespace izb {
 
-namespace {
-
 uint64_t fragments_of(const shared::Counters& c) {
   return c.fragments + (uint64_t{c.carries & 0xffffu} << 32);
 }
@@ -18,8 +16,6 @@ uint64_t fragments_of(const shared::Counters& c) {
 uint64_t tests_of(const shared::Counters& c) {
   return c.visibility_tests + (uint64_t{c.carries >> 16} << 32);
 }
-
-}  // namespace
 
 Counts Izb::count(const FrameInputs& in, Visibility& out) {
   const shared::Counters all = visibility_counted(in, out, {IzbProgram::visibility_counted_all, false});
@@ -69,7 +65,7 @@ std::vector<float> Izb::fragments_a_texel(const FrameInputs& in, Visibility& out
 }
 
 std::string Izb::fault() const {
-  if (counters_.read<shared::Counters>(1)[0].unfinished == 0) return {};
+  if (read_counters().unfinished == 0) return {};
   return "a list of the light-space grid is longer than this driver's loops may run, so that shadows are missing: "
          "take a larger --grid or more --cascades";
 }

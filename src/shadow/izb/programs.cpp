@@ -12,20 +12,22 @@ namespace {
 
 bool belongs(IzbProgram program, const IzbSettings& settings) {
   if (program == IzbProgram::count_nodes) return settings.pool();
-  if (program >= IzbProgram::hardware && program <= IzbProgram::hardware_fragments) return settings.hardware();
+  if (program >= IzbProgram::hardware && program <= IzbProgram::hardware_stored) return settings.hardware();
   return true;
 }
 
-bool counts(IzbProgram program) {
-  return (program >= IzbProgram::visibility_counted && program <= IzbProgram::visibility_fragments) ||
-         (program >= IzbProgram::hardware_counted && program <= IzbProgram::hardware_fragments);
+/// Takes no part in a frame.
+bool measures(IzbProgram program) {
+  return (program >= IzbProgram::visibility_counted && program <= IzbProgram::visibility_stored) ||
+         (program >= IzbProgram::hardware_counted && program <= IzbProgram::speed_of_light);
 }
 
 }  // namespace
 
 bool knows_masks(IzbProgram program, const IzbSettings& settings) {
-  if (program == IzbProgram::settle) return settings.alpha == "exact";  // else the walk has asked before
-  return settings.alpha_masks() && program >= IzbProgram::visibility && program <= IzbProgram::hardware_fragments;
+  if (program == IzbProgram::settle || program == IzbProgram::speed_of_light)
+    return settings.alpha == "exact";  // else the walk has asked before
+  return settings.alpha_masks() && program >= IzbProgram::visibility && program <= IzbProgram::hardware_stored;
 }
 
 IzbProgram hardware_of(IzbProgram visibility) {
@@ -38,6 +40,8 @@ IzbProgram hardware_of(IzbProgram visibility) {
       return IzbProgram::hardware_tests;
     case IzbProgram::visibility_fragments:
       return IzbProgram::hardware_fragments;
+    case IzbProgram::visibility_stored:
+      return IzbProgram::hardware_stored;
     default:
       return IzbProgram::hardware_counted;
   }
@@ -125,6 +129,8 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
       return visibility(s.pyramid(), "COUNT_TESTS");
     case IzbProgram::visibility_fragments:
       return visibility(s.pyramid(), "COUNT_FRAGMENTS");
+    case IzbProgram::visibility_stored:
+      return visibility(s.pyramid(), "STORE_TESTS");
     case IzbProgram::hardware:
       return hardware("");
     case IzbProgram::hardware_in_double:
@@ -135,6 +141,13 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
       return hardware("COUNT_TESTS");
     case IzbProgram::hardware_fragments:
       return hardware("COUNT_FRAGMENTS");
+    case IzbProgram::hardware_stored:
+      return hardware("STORE_TESTS");
+    case IzbProgram::speed_of_light:
+      walk_defines();
+      define(s.unchanged_skip, "SKIP");
+      defines.insert(s.geometry.begin(), s.geometry.end());
+      return {"izb speed of light", {folder + "5_visibility_speed_of_light.comp.glsl"}, defines};
     case IzbProgram::settle:
       walk_defines();
       defines.insert(s.geometry.begin(), s.geometry.end());
@@ -207,7 +220,7 @@ void IzbPrograms::prepare(LightKind light, bool masked_casters) {
   light_ = light;
   for (int p = 0; p < static_cast<int>(IzbProgram::count); ++p) {
     const IzbProgram each = static_cast<IzbProgram>(p);
-    if (!belongs(each, settings_) || counts(each)) continue;
+    if (!belongs(each, settings_) || measures(each)) continue;
     for (const bool masked : {false, true})
       if (!masked || (masked_casters && knows_masks(each, settings_))) get(each, masked);
   }

@@ -22,11 +22,14 @@ enum class IzbProgram {
   visibility_counted_all,
   visibility_tests,      ///< counted, also by pixel
   visibility_fragments,  ///< counted, also by texel
+  visibility_stored,     ///< each test goes into a list
   hardware,              ///< of --raster hw, before the one of the same variant above
   hardware_in_double,
   hardware_counted,
   hardware_tests,
   hardware_fragments,
+  hardware_stored,
+  speed_of_light,  ///< the tests of that list
   settle,
   overflow,
   count
@@ -41,7 +44,7 @@ IzbProgram hardware_of(IzbProgram visibility);
 /// Whether it has a variant for casters with an alpha mask.
 bool knows_masks(IzbProgram program, const IzbSettings& settings);
 
-/// `masked`: of casters with an alpha mask; of `settle`, of casters among which there are such.
+/// `masked`: of casters with an alpha mask; of `settle` and `speed_of_light`, of casters among which there are such.
 gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& settings, LightKind light,
                                   bool masked = false);
 

@@ -1,0 +1,104 @@
+// The test of one pair of triangle and pixel, for all who make it: the walk over the lists and the speed of light.
+// Defines, beside those of receivers.glsl and coverage.glsl: IN_DOUBLE: decide unsure pairs here; MASKED: triangles may have an
+// alpha mask, see cutout.glsl.
+#include "shared/occlusion.h"
+#include "shared/pairs.h"
+#include "shadow/izb/receivers.glsl"
+#ifdef SPP32
+#include "shadow/izb/coverage.glsl"
+#endif
+#ifdef MASKED
+#include "shadow/izb/cutout.glsl"
+#endif
+
+layout(std140, binding = BIND_CAMERA) uniform CameraBlock { CameraFrame camera; };
+layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
+layout(std430, binding = BIND_COUNTERS) buffer CounterBlock { Counters counters; };
+layout(std430, binding = BIND_PAIRS) writeonly buffer PairBlock { UnsurePair pairs[]; };
+layout(binding = UNIT_ID) uniform usampler2D id_texture;
+
+#ifdef SPP32
+#define Planes QuadTriangle
+#else
+#define Planes TrianglePlanes
+#endif
+
+// Several samples take the corners in the order of their positions.
+struct Triangle {
+  vec3 a;
+  vec3 b;
+  vec3 c;
+  Planes planes;
+#ifdef MASKED
+  Cutout cutout;
+  bool masked;
+#endif
+};
+
+Triangle make_triangle(CameraFrame eye, vec3 a, vec3 b, vec3 c) {
+  Triangle t;
+  t.a = a;
+  t.b = b;
+  t.c = c;
+#ifdef SPP32
+  t.planes = make_quad_triangle(eye, light, a, b, c);
+#else
+  t.planes = make_planes(light, a, b, c);
+#endif
+#ifdef MASKED
+  t.masked = false;
+#endif
+  return t;
+}
+
+#ifdef MASKED
+Triangle make_triangle(CameraFrame eye, vec3 a, vec3 b, vec3 c, Cutout cutout) {
+  Triangle t = make_triangle(eye, a, b, c);
+  t.cutout = cutout;
+  t.masked = true;
+  return t;
+}
+#endif
+
+// For what single precision cannot decide.
+void add_pair(ivec2 px, uvec2 id) {
+  // A receiver's own triangle, the commonest of them, lies within the bias of its plane and never occludes it.
+  if (texelFetch(id_texture, px, 0).xy == id) return;
+  uint i = atomicAdd(counters.pairs, 1u);
+  if (i < counters.capacity) pairs[i] = UnsurePair(node_from_pixel(px, 0), id.x - 1u, id.y, 0u);
+}
+
+// The mask bits of one pair.
+uint test(CameraFrame eye, Triangle t, ivec2 px, vec4 data, out bool unsure) {
+#ifdef SPP32
+  uint bits = classify_quad(eye, t.planes, make_micro_quad(eye, px, data), unsure);
+#ifdef IN_DOUBLE
+  if (unsure) bits = occluded_bits(quad_planes(eye, light, t.a, t.b, t.c, px, data));
+#endif
+#ifdef ALPHA_EXACT
+  if (t.masked) {
+    bits &= ~known_shadow(px);  // whose alpha need not be asked
+    if (bits != 0u) {
+      uint undecided;
+      bits = uncut_bits(t.cutout, quad_planes(eye, light, t.a, t.b, t.c, px, data), bits, undecided);
+      if (undecided != 0u) counters.unfinished = 1u;
+    }
+  }
+#endif
+#else
+  vec3 p = receiver_point(eye, vec2(px) + 0.5, data.x);
+  int answer = classify(eye, t.planes, p, data.x);
+  unsure = answer == pair_unsure;
+#ifdef IN_DOUBLE
+  if (unsure) answer = occludes(eye, light, t.a, t.b, t.c, p, data.x) ? pair_in : pair_out;
+#endif
+#ifdef ALPHA_EXACT
+  if (t.masked && answer == pair_in && !is_uncut(t.cutout, light, p, t.a, t.b, t.c)) answer = pair_out;
+#endif
+  uint bits = answer == pair_in ? 0xffffffffu : 0u;
+#endif
+#ifdef IN_DOUBLE
+  unsure = false;
+#endif
+  return bits;
+}
