@@ -2,6 +2,7 @@
 // Stands in for embree.cpp where the system has no Embree: every use is a named refusal.
 #include "base/error.h"
 #include "reference/embree.h"
+#include "reference/hierarchy.h"
 
 namespace izb::reference {
 
@@ -39,6 +40,9 @@ MaskTrace RayTracer::trace_mask(const LightPoint&, const Receivers&) const {
   refuse();
 }
 PrimaryHits RayTracer::primary_hits(std::span<const glm::vec3>, std::span<const glm::vec3>, float, float) const {
+  refuse();
+}
+Hierarchy build_hierarchy(const Triangles&, unsigned) {
   refuse();
 }
 AllHits RayTracer::all_hits(std::span<const glm::vec3>, std::span<const glm::vec3>, float,
