@@ -165,9 +165,9 @@ TEST_F(Supersample, SharesAlongAnAxisAreAreasWithinOneFrame) {
       const auto s = session(file_of(wall.scene), technique, {{"spp", "1"}});
       const ShareErrors errors = share_errors(wall, sums(*s, frames));
       // Of 2^k frames each column, and each row, of a pixel that is 2^-k wide sees one: an edge along it errs by less
-      // than one. The pixel of a corner, where a box of both is counted, is allowed more: 1/2 log2(N) + 2 frames for a
-      // (0, 2)-sequence in base 2 (Niederreiter 1992, theorem 4.14).
-      const double corner = (0.5 * std::log2(frames) + 2.0) / frames;
+      // than one. At a corner the box is cut into at most k columns, 1/2, 1/4, ... wide as the digits of its width say,
+      // and a rest below 2^-k: in each column the frames are as even along its height, and err by less than one.
+      const double corner = (std::log2(frames) + 1.0) / frames;
       for (const Errors& e : {errors.surface, errors.lit}) {
         EXPECT_LT(e.largest, corner) << technique;
         EXPECT_LT(e.rms(), 1.0 / frames) << technique;

@@ -2,9 +2,19 @@
 #include "shadow/ray_traced/receivers.h"
 
 #include "reference/exact.h"
+#include "reference/parallel.h"
 
 namespace izb {
 namespace {
+
+/// On all cores.
+template <typename Body>
+void for_each_pixel(size_t count, Body&& body) {
+  constexpr size_t pixels_per_chunk = 4096;
+  reference::parallel_for(count, pixels_per_chunk, 0, [&](size_t begin, size_t end, unsigned) {
+    for (size_t i = begin; i < end; ++i) body(i);
+  });
+}
 
 /// The samples' offsets and the tangent planes of the pixels' own triangles, all in double.
 void add_samples(reference::Receivers& receivers, const FrameInputs& in) {
@@ -12,12 +22,12 @@ void add_samples(reference::Receivers& receivers, const FrameInputs& in) {
   receivers.camera = {glm::dvec2(in.camera.pixel_ray), shared::is_perspective(in.camera)};
   const std::vector<glm::vec3>& vertices = in.triangles_vs();
   receivers.slopes.assign(receivers.count(), glm::dvec2(0.0));
-  for (size_t i = 0; i < receivers.count(); ++i) {
-    if (receivers.own_triangle[i] == reference::no_triangle) continue;
+  for_each_pixel(receivers.count(), [&](size_t i) {
+    if (receivers.own_triangle[i] == reference::no_triangle) return;
     const glm::vec3* v = &vertices[3 * size_t(receivers.own_triangle[i])];
     receivers.slopes[i] =
         reference::tangent_slopes(receivers.points_vs[i], reference::normal({v[0], v[1], v[2]}), receivers.camera);
-  }
+  });
 }
 
 }  // namespace
@@ -31,12 +41,12 @@ reference::Receivers make_receivers(const GBufferImage& image, const FrameInputs
   receivers.own_triangle.assign(count, reference::no_triangle);
   receivers.classes.resize(count);
   receivers.band.resize(count);
-  for (size_t i = 0; i < count; ++i) {
+  for_each_pixel(count, [&](size_t i) {
     receivers.points_vs[i] = receiver_point_vs(image, in.camera, i);
     receivers.classes[i] = static_cast<reference::PixelClass>(pixel_class(image, in.camera, in.light, i));
     receivers.band[i] = band_px * shared::pixel_width(in.camera, image.eye_distance[i]);
     if (image.id[i].x != 0) receivers.own_triangle[i] = (*in.first_triangle)[image.id[i].x - 1] + image.id[i].y;
-  }
+  });
   // The only sample of a pattern of one is the receiver point itself.
   if (in.samples.count() > 1) add_samples(receivers, in);
   return receivers;
