@@ -18,6 +18,8 @@ using Arguments = std::vector<std::string>;
 Command add_render(CLI::App& app, const Arguments& arguments);
 Command add_validate(CLI::App& app, const Arguments& arguments);
 Command add_compare(CLI::App& app, const Arguments& arguments);
+Command add_bench(CLI::App& app, const Arguments& arguments);
+Command add_bench_job(CLI::App& app);
 Command add_info(CLI::App& app);
 Command add_scene(CLI::App& app);
 Command add_view(CLI::App& app, const Arguments& arguments);

@@ -22,6 +22,8 @@ int run(int argc, char** argv) {
       {"render", izb::add_render(app, arguments)},
       {"validate", izb::add_validate(app, arguments)},
       {"compare", izb::add_compare(app, arguments)},
+      {"bench", izb::add_bench(app, arguments)},
+      {"bench-job", izb::add_bench_job(app)},
       {"view", izb::add_view(app, arguments)},
       {"info", izb::add_info(app)},
       {"scene", izb::add_scene(app)},

@@ -39,11 +39,11 @@ nlohmann::json averages_json(const nlohmann::json& counts) {
 
 }  // namespace
 
-void add_statistics(nlohmann::json& json, const RenderedFrame& rendered) {
+void add_statistics(nlohmann::json& json, const RenderedFrame& rendered, bool unculled) {
   nlohmann::json all = nlohmann::json::object();
   std::vector<uint64_t> histogram;
   for (size_t light = 0; light < rendered.renderer.light_count(); ++light) {
-    nlohmann::json counts = counts_json(rendered.renderer.count(light));
+    nlohmann::json counts = counts_json(rendered.renderer.count(light, unculled));
     counts.update(counts_json(receiver_counts(rendered.renderer, light)));
     for (const auto& [name, value] : counts.items()) {
       const uint64_t before = all.value(name, uint64_t{0}), its = value.get<uint64_t>();

@@ -206,9 +206,9 @@ std::vector<uint32_t> Renderer::read_mask(size_t light) const {
   return izb::read_mask(visibility_[light].mask);
 }
 
-Counts Renderer::count(size_t light) {
+Counts Renderer::count(size_t light, bool unculled) {
   select_again(light);
-  return technique_->count(inputs_[light], visibility_[light]);
+  return technique_->count(inputs_[light], visibility_[light], unculled);
 }
 
 std::vector<float> Renderer::list_lengths(size_t light) {

@@ -49,7 +49,7 @@ class Renderer {
   /// Counts of the last frame under one of its lights, by a frame of their own; and what the technique says of its
   /// lists and of its work. Where another renderer of the same buffers has rendered since, the scene must be posed as
   /// it was.
-  Counts count(size_t light = 0);
+  Counts count(size_t light = 0, bool unculled = true);
   std::vector<float> list_lengths(size_t light = 0);
   std::vector<uint64_t> list_histogram(size_t light = 0);
   std::vector<float> tests_a_pixel(size_t light = 0);

@@ -60,8 +60,9 @@ class Technique {
   virtual void render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) = 0;
   /// Why the frame just rendered is not what it should be: one sentence, or empty.
   virtual std::string fault() const { return {}; }
-  /// Renders once more with counting on; out.mask is as after render().
-  virtual Counts count(const FrameInputs& in, Visibility& out) = 0;
+  /// Renders once more with counting on; out.mask is as after render(). `unculled`: also what a frame without culling
+  /// would do, which takes as long as such a frame.
+  virtual Counts count(const FrameInputs& in, Visibility& out, bool unculled) = 0;
   /// GPU memory of its own, by name, in bytes; the mask is the frame's.
   virtual Counts memory() const = 0;
   /// What resize() would take with the options as they are, part by part as memory() names them. Needs no GL.

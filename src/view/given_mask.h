@@ -23,7 +23,7 @@ class GivenMask final : public Technique {
   GridRequest grid() const override { return {1, true}; }
   void resize(const FrameShape&) override { next_ = 0; }
   void render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) override;
-  Counts count(const FrameInputs&, Visibility&) override { return {}; }
+  Counts count(const FrameInputs&, Visibility&, bool) override { return {}; }
   Counts memory() const override { return {}; }
   gpu::Plan memory_needed(const FrameShape&) const override { return {}; }
   std::vector<gpu::ProgramSpec> program_specs() const override { return {}; }

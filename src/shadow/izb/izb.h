@@ -33,7 +33,7 @@ class Izb final : public Technique {
   void resize(const FrameShape& shape) override;
   void render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) override;
   std::string fault() const override;
-  Counts count(const FrameInputs& in, Visibility& out) override;
+  Counts count(const FrameInputs& in, Visibility& out, bool unculled) override;
   Counts memory() const override;
   gpu::Plan memory_needed(const FrameShape& shape) const override;
   std::vector<float> list_lengths(const FrameInputs& in) override;

@@ -17,27 +17,30 @@ uint64_t tests_of(const shared::Counters& c) {
   return c.visibility_tests + (uint64_t{c.carries >> 16} << 32);
 }
 
-Counts Izb::count(const FrameInputs& in, Visibility& out) {
-  const shared::Counters all = visibility_counted(in, out, {IzbProgram::visibility_counted_all, false});
-  const shared::Counters culled =
-      built_.zcull ? visibility_counted(in, out, {IzbProgram::visibility_counted, true}) : all;
+Counts Izb::count(const FrameInputs& in, Visibility& out, bool unculled) {
+  Counts counts;
+  shared::Counters culled{};
+  if (unculled || !built_.zcull) {
+    culled = visibility_counted(in, out, {IzbProgram::visibility_counted_all, false});
+    counts = {{"triangles", culled.triangles}, {"fragments", fragments_of(culled)}};
+  }
+  if (built_.zcull) culled = visibility_counted(in, out, {IzbProgram::visibility_counted, true});
   const std::vector<uint64_t> histogram = list_histogram(in);
   uint64_t nodes = 0, lists = 0;
   for (size_t length = 1; length < histogram.size(); ++length) {
     nodes += histogram[length] * length;
     lists += histogram[length];
   }
-  return {{"triangles", all.triangles},
-          {"triangles_after_zcull", culled.triangles},
-          {"fragments", fragments_of(all)},
-          {"fragments_after_zcull", fragments_of(culled)},
-          {"visibility_tests", tests_of(culled)},
-          {"nodes", nodes},
-          {"lists", lists},
-          {"longest_list", histogram.empty() ? 0 : histogram.size() - 1},
-          {"pairs_in_double", culled.pairs},
-          {"nodes_removed", culled.removed},
-          {"masks_unchanged", culled.unchanged}};
+  counts.insert(counts.end(), {{"triangles_after_zcull", culled.triangles},
+                               {"fragments_after_zcull", fragments_of(culled)},
+                               {"visibility_tests", tests_of(culled)},
+                               {"nodes", nodes},
+                               {"lists", lists},
+                               {"longest_list", histogram.empty() ? 0 : histogram.size() - 1},
+                               {"pairs_in_double", culled.pairs},
+                               {"nodes_removed", culled.removed},
+                               {"masks_unchanged", culled.unchanged}});
+  return counts;
 }
 
 std::vector<float> Izb::work(const FrameInputs& in, Visibility& out, IzbProgram program, gpu::Texture sums) {

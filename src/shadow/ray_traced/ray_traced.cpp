@@ -38,7 +38,7 @@ class RayTraced final : public Technique {
     trace(in, out);
   }
 
-  Counts count(const FrameInputs& in, Visibility& out) override { return {{"rays", trace(in, out)}}; }
+  Counts count(const FrameInputs& in, Visibility& out, bool) override { return {{"rays", trace(in, out)}}; }
   Counts memory() const override { return {}; }
   gpu::Plan memory_needed(const FrameShape&) const override { return {}; }
   std::vector<gpu::ProgramSpec> program_specs() const override { return {}; }

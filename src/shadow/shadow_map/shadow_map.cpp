@@ -178,7 +178,7 @@ void ShadowMap::visibility(const FrameInputs& in, Visibility& out, ShadowMapProg
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-Counts ShadowMap::count(const FrameInputs& in, Visibility& out) {
+Counts ShadowMap::count(const FrameInputs& in, Visibility& out, bool) {
   const gpu::Query passed("depth map fragments", GL_SAMPLES_PASSED);
   glBeginQuery(GL_SAMPLES_PASSED, passed.name());
   fit(in);

@@ -34,7 +34,7 @@ class ShadowMap final : public Technique {
   void render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) override;
   /// `fragments_in_map`: of casters, that passed the depth test; `lookups`: samples of receivers, of which the map does
   /// not reach `lookups_outside`; `comparisons`: of texels with a receiver.
-  Counts count(const FrameInputs& in, Visibility& out) override;
+  Counts count(const FrameInputs& in, Visibility& out, bool unculled) override;
   Counts memory() const override;
   gpu::Plan memory_needed(const FrameShape& shape) const override;
   std::vector<gpu::ProgramSpec> program_specs() const override;

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench/sections.h"
+
+#include <algorithm>
+#include <set>
+
+#include "app/bench/report_table.h"
+#include "app/results.h"
+#include "base/error.h"
+
+namespace izb::bench {
+
+using nlohmann::json;
+
+std::vector<const Measured*> Evidence::of_part(const std::string& part) const {
+  std::vector<const Measured*> list;
+  for (const Measured* m : jobs)
+    if (m->job.part == part) list.push_back(m);
+  return list;
+}
+
+const json* find_configuration(const Measured& m, const std::string& name) {
+  if (!m.works() || !m.result.contains("configurations")) return nullptr;
+  for (const json& c : m.result["configurations"])
+    if (c["name"] == name) return &c;
+  return nullptr;
+}
+
+namespace {
+
+json stage_ms(const json& configuration, const std::string& name) {
+  for (const json& stage : configuration["stages"])
+    if (stage["name"] == name) return stage["gpu_ms"];
+  return no_value("this technique has no such stage");
+}
+
+json shadow_ms(const json& configuration) {
+  double sum = 0.0;
+  for (const json& stage : configuration["stages"])
+    for (const char* name : {"bounds", "build", "zcull", "visibility"})
+      if (stage["name"] == name) sum += stage["gpu_ms"].get<double>();
+  return sum;
+}
+
+json at_path(const json& configuration, const std::string& path) {
+  const json::json_pointer pointer("/" + path);
+  if (!configuration.contains(pointer) || configuration[pointer].is_null())
+    return no_value("not said by this technique or system");
+  return configuration[pointer];
+}
+
+}  // namespace
+
+json value(const Measured& m, const std::string& configuration, const std::string& what, double scale) {
+  if (!m.works()) return no_value(m.reason());
+  const json* const c = find_configuration(m, configuration);
+  if (!c) return no_value("not part of this run");
+  if (c->contains("failed")) return no_value((*c)["failed"]);
+  json number = what == "shadow_ms"           ? shadow_ms(*c)
+                : what.starts_with("stages/") ? stage_ms(*c, what.substr(7))
+                                              : at_path(*c, what);
+  if (number.is_number()) number = number.get<double>() * scale;
+  return number;
+}
+
+json ratio(const json& a, const json& b, double scale) {
+  if (!a.is_number()) return a;
+  if (!b.is_number()) return b;
+  if (b.get<double>() == 0.0) return no_value("the divisor is 0");
+  return scale * a.get<double>() / b.get<double>();
+}
+
+json plotted(const json& cell) {
+  return cell.is_number() ? cell : json();
+}
+
+json median_of(const std::vector<json>& cells) {
+  std::vector<double> numbers;
+  for (const json& cell : cells)
+    if (cell.is_number()) numbers.push_back(cell);
+  if (numbers.empty()) return no_value("no scene has a value");
+  return median(numbers);
+}
+
+std::vector<std::string> configuration_names(const std::vector<const Measured*>& jobs) {
+  std::vector<std::string> names;
+  for (const Measured* m : jobs)
+    for (const Configuration& c : m->job.configurations)
+      if (std::find(names.begin(), names.end(), c.name) == names.end()) names.push_back(c.name);
+  return names;
+}
+
+std::string scene_label(const Measured& m) {
+  if (m.job.scene.triangles == 0) return m.job.scene.name;
+  return fmt::format("{} ({} k triangles)", m.job.scene.name, (m.job.scene.triangles + 500) / 1000);
+}
+
+json new_section(const std::string& id, const std::string& title, std::vector<std::string> text) {
+  return {{"id", id},
+          {"title", title},
+          {"text", std::move(text)},
+          {"facts", json::array()},
+          {"notes", json::array()},
+          {"tables", json::array()},
+          {"plots", json::array()},
+          {"images", json::array()}};
+}
+
+json series(const std::string& name, std::vector<json> values, bool paper) {
+  for (json& v : values) v = plotted(v);
+  return {{"name", name}, {"values", std::move(values)}, {"source", paper ? "paper" : "measured"}};
+}
+
+namespace {
+
+using Section = json (*)(const Evidence&);
+
+struct NamedSection {
+  const char* experiment;
+  Section section;
+};
+
+constexpr NamedSection sections[] = {
+    {"table1", table1_section},   {"table2", table2_section},     {"figure8", figure8_section},
+    {"figure9", figure9_section}, {"figure10", figure10_section}, {"ablations", ablations_section},
+    {"memory", memory_section},   {"temporal", temporal_section}, {"peers", peers_section}};
+
+/// What was measured how, and what was left out.
+void add_conditions(json& section, const Evidence& evidence, bool software) {
+  std::set<std::string> sizes, frames, smaller;
+  size_t failed = 0, missing = 0;
+  for (const Measured* m : evidence.jobs) {
+    sizes.insert(m->job.size);
+    frames.insert(std::to_string(m->job.frames));
+    if (m->job.scene.triangles != 0) smaller.insert(scene_label(*m));
+    failed += m->result.is_object() && !m->works();
+    missing += m->result.is_null();
+  }
+  section["facts"].push_back(json::array({"picture", fmt::format("{}", fmt::join(sizes, ", "))}));
+  section["facts"].push_back(json::array({"frames timed", fmt::format("{}", fmt::join(frames, ", "))}));
+  if (!smaller.empty())
+    section["notes"].push_back(
+        fmt::format("Scenes with fewer triangles than their own: {}.", fmt::join(smaller, ", ")));
+  if (failed > 0) section["notes"].push_back(fmt::format("{} of {} jobs failed.", failed, evidence.jobs.size()));
+  if (missing > 0)
+    section["notes"].push_back(fmt::format("{} of {} jobs were not run.", missing, evidence.jobs.size()));
+  std::vector<std::string> named;
+  for (const Measured* m : evidence.jobs)
+    for (const Configuration& c : m->job.configurations) {
+      if (std::find(named.begin(), named.end(), c.name) != named.end()) continue;
+      named.push_back(c.name);
+      section["facts"].push_back(
+          json::array({c.name, "`" + c.command_line() + (c.size.empty() ? "" : " --size " + c.size) + "`"}));
+    }
+  section["software"] = software;
+  for (json& plot : section["plots"]) plot["software"] = software;
+}
+
+json facts(const json& made, const std::string& command, const std::string& extent) {
+  const json& machine = made["machine"];
+  const auto text = [](const json& j) { return j.is_string() ? j.get<std::string>() : std::string("not said"); };
+  std::string memory = "not said";
+  if (machine["memory_bytes"].is_number())
+    memory = fmt::format("{:.1f} GB", machine["memory_bytes"].get<double>() / 1e9);
+  json list = json::array();
+  const auto add = [&](const std::string& key, const std::string& fact) { list.push_back(json::array({key, fact})); };
+  add("machine", fmt::format("{}, {} cores, {}", text(machine["processor"]), machine["cores"].get<int>(), memory));
+  add("system", text(machine["system"]));
+  add("OpenGL", fmt::format("{}, {} ({})", text(made["gl"]["renderer"]), text(made["gl"]["version"]),
+                            text(made["gl"]["context"])));
+  add("times by", made["timing"] == "wall" ? "the wall clock between finishes" : "timer queries");
+  add("ray tracer", text(made["embree"]));
+  add("izb", text(made["version"]));
+  add("command", "`" + command + "`");
+  add("extent", extent);
+  add("written", text(made["date"]));
+  return list;
+}
+
+}  // namespace
+
+json make_document(const std::vector<Measured>& results, const json& paper, const json& made,
+                   const std::string& command, const std::string& extent) {
+  const bool software = made["software"];
+  json document{{"title", "izb bench"},
+                {"subtitle", "Frustum-Traced Raster Shadows (Wyman, Hoetzlein and Lefohn 2015), measured"},
+                {"facts", facts(made, command, extent)},
+                {"software", software},
+                {"sections", json::array()}};
+  for (const NamedSection& named : sections) {
+    Evidence evidence{{}, paper};
+    for (const Measured& m : results)
+      if (m.job.experiment == named.experiment) evidence.jobs.push_back(&m);
+    if (evidence.jobs.empty()) continue;
+    json section = named.section(evidence);
+    add_conditions(section, evidence, software);
+    document["sections"].push_back(std::move(section));
+  }
+  return document;
+}
+
+}  // namespace izb::bench

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+// Techniques against the truth: what flickers, and what is wrong, at which cost.
+#include <algorithm>
+
+#include "app/bench/report_table.h"
+#include "app/bench/sections.h"
+#include "base/error.h"
+
+namespace izb::bench {
+
+using nlohmann::json;
+
+namespace {
+
+json bars(const std::string& id, const std::string& title, const std::string& y, const std::string& unit,
+          const std::vector<std::string>& names, const char* scale = "linear") {
+  json plot{{"id", id},
+            {"kind", "bars"},
+            {"title", title},
+            {"x", {{"label", "technique"}, {"scale", "category"}, {"values", names}}},
+            {"y", {{"label", y}, {"scale", scale}}},
+            {"series", json::array()}};
+  if (!unit.empty()) plot["y"]["unit"] = unit;
+  return plot;
+}
+
+void add_pictures(json& section, const Measured& m) {
+  if (!m.works() || !m.result.contains("pictures")) return;
+  const json& pictures = m.result["pictures"];
+  if (!pictures.is_array()) {
+    section["images"].push_back(pictures);
+    return;
+  }
+  for (const json& group : pictures) section["images"].push_back(group);
+}
+
+std::string percent_text(const json& share) {
+  return share.is_number() ? fmt::format("{:.3f}", 100.0 * share.get<double>()) : std::string("-");
+}
+
+json role(const Measured& m, const std::string& wanted, const std::string& what, double scale = 1.0) {
+  for (const Configuration& c : m.job.configurations)
+    if (c.notes.value("role", "") == wanted) return value(m, c.name, what, scale);
+  return no_value("not part of this run");
+}
+
+/// The best of the shadow maps of a scene, by the mean error over some pixels.
+std::string best_map(const Measured& m, const std::string& pixels = "inner") {
+  std::string best;
+  double least = 0.0;
+  for (const Configuration& c : m.job.configurations) {
+    if (c.technique != "shadow_map") continue;
+    const json error = value(m, c.name, "error/" + pixels + "/mean");
+    if (error.is_number() && (best.empty() || error.get<double>() < least)) best = c.name, least = error;
+  }
+  return best;
+}
+
+}  // namespace
+
+json temporal_section(const Evidence& e) {
+  json section = new_section("temporal", "Flicker under motion",
+                             {"The camera's grid of pixels moves by a fraction of a pixel a step, or the light turns "
+                              "by a fraction of a degree. A "
+                              "flip is a pixel that goes from mostly lit to mostly dark or back. The change is that of "
+                              "the share of light a pixel, on "
+                              "the mean over pixels and steps. What moves in truth, by rays through many points of "
+                              "each pixel, is the first row: less "
+                              "change than that smears, more flickers, and the last column says how far each pixel's "
+                              "change is from the true one."});
+  for (const std::string part : {"camera", "light"}) {
+    const std::vector<const Measured*> jobs = e.of_part(part);
+    if (jobs.empty()) continue;
+    ReportTable table("temporal-" + part, "The " + part + " moves",
+                      {{.name = "scene", .text = true},
+                       {.name = "technique", .text = true},
+                       {.name = "flips of a thousand pixels a step", .digits = 2},
+                       {.name = "change", .unit = "%", .digits = 3},
+                       {.name = "difference from the true change", .unit = "%", .digits = 3}});
+    const std::vector<std::string> names = configuration_names(jobs);
+    json plot =
+        bars("temporal-" + part + "-plot", "The " + part + " moves: how far a pixel's change is from the true one",
+             "difference from the true change", "%", names);
+    for (const Measured* m : jobs) {
+      std::vector<json> values;
+      for (const std::string& name : names) {
+        values.push_back(value(*m, name, "temporal/mean_difference_from_truth", 100.0));
+        table.add({scene_label(*m), name, value(*m, name, "temporal/flips_a_thousand_pixel_steps"),
+                   value(*m, name, "temporal/mean_change", 100.0), values.back()});
+      }
+      plot["series"].push_back(series(scene_label(*m), std::move(values)));
+      add_pictures(section, *m);
+    }
+    section["tables"].push_back(table.json());
+    section["plots"].push_back(std::move(plot));
+  }
+  return section;
+}
+
+json peers_section(const Evidence& e) {
+  json section = new_section(
+      "peers", "Peers against the truth",
+      {"Every technique on the same frames, judged by the same truth: rays from many points of each pixel to the "
+       "light. The "
+       "error is of the share of light in a pixel, |technique - truth|, on the mean over the pixels whose every ray "
+       "meets a surface that "
+       "could be lit, so that it is of shadow alone; in the tables of the scenes also over all pixels that see a "
+       "surface. Leaks are the part "
+       "that is too light, false shadow the part that is too dark. FLIP compares the shaded pictures with the truth's.",
+       "32 samples of izb and 32 rays stand at the same points, on the plane of what the pixel's centre sees; the "
+       "truth sees all of the "
+       "pixel. So neither can be nearer to it than that model, and what tells them apart is izb's table and its "
+       "insertion. Flat pixels "
+       "are those whose neighbours all lie on their plane, where the model holds: there no map should come near. "
+       "Elsewhere samples of the "
+       "plane may lie inside of what else is in the pixel, and be dark; a map's bias forgives that."});
+  const std::vector<std::string> names = configuration_names(e.jobs);
+  ReportTable summary("peers", "Median over the scenes",
+                      {{.name = "technique", .text = true},
+                       {.name = "error", .unit = "%", .digits = 3},
+                       {.name = "error, flat pixels", .unit = "%", .digits = 3},
+                       {.name = "leaks", .unit = "%", .digits = 3},
+                       {.name = "false shadow", .unit = "%", .digits = 3},
+                       {.name = "pixels wrong by more than 1/8", .unit = "%", .digits = 2},
+                       {.name = "FLIP", .digits = 4},
+                       {.name = "shadow stages", .unit = "ms"}});
+  json plot = bars("peers-error", "Error of the share of light, median of the scenes", "error", "%", names, "log");
+  std::vector<json> errors;
+  for (const std::string& name : names) {
+    const auto over_scenes = [&](const std::string& what, double scale) {
+      std::vector<json> cells;
+      for (const Measured* m : e.jobs) cells.push_back(value(*m, name, what, scale));
+      return median_of(cells);
+    };
+    errors.push_back(over_scenes("error/inner/mean", 100.0));
+    summary.add({name, errors.back(), over_scenes("error/flat/mean", 100.0), over_scenes("error/inner/leaks", 100.0),
+                 over_scenes("error/inner/false_shadow", 100.0),
+                 over_scenes("error/inner/pixels_above_an_eighth", 100.0), over_scenes("flip_mean", 1.0),
+                 over_scenes("shadow_ms", 1.0)});
+  }
+  plot["series"].push_back(series("error", errors));
+  section["tables"].push_back(summary.json());
+  section["plots"].push_back(std::move(plot));
+
+  ReportTable verdicts("peers-verdicts", "32 samples of izb against 32 rays and against the best map, scene by scene",
+                       {{.name = "scene", .text = true},
+                        {.name = "izb, 32 samples", .unit = "%", .digits = 3, .group = "error"},
+                        {.name = "32 rays", .unit = "%", .digits = 3, .group = "error"},
+                        {.name = "izb, 1 sample", .unit = "%", .digits = 3, .group = "error"},
+                        {.name = "best map", .unit = "%", .digits = 3, .group = "error"},
+                        {.name = "which", .group = "error", .text = true},
+                        {.name = "izb, 32 samples", .unit = "%", .digits = 3, .group = "error, flat pixels"},
+                        {.name = "32 rays", .unit = "%", .digits = 3, .group = "error, flat pixels"},
+                        {.name = "the best map there", .unit = "%", .digits = 3, .group = "error, flat pixels"},
+                        {.name = "bits unlike those of the rays", .unit = "%", .digits = 3},
+                        {.name = "best map / izb", .digits = 1}});
+  json by_scene{{"id", "peers-scenes"},
+                {"kind", "bars"},
+                {"title", "Error of the share of light by scene"},
+                {"x", {{"label", "scene"}, {"scale", "category"}, {"values", json::array()}}},
+                {"y", {{"label", "error"}, {"unit", "%"}, {"scale", "log"}}},
+                {"series", json::array()}};
+  std::vector<json> ours_by_scene, rays_by_scene, map_by_scene;
+  for (const Measured* m : e.jobs) {
+    const std::string map = best_map(*m);
+    const json ours = role(*m, "ours", "error/inner/mean", 100.0), rays = role(*m, "rays", "error/inner/mean", 100.0),
+               one = role(*m, "ours, 1 sample", "error/inner/mean", 100.0);
+    const json its =
+        map.empty() ? no_value(m->works() ? "no map worked" : m->reason()) : value(*m, map, "error/inner/mean", 100.0);
+    verdicts.add({scene_label(*m), ours, rays, one, its, map.empty() ? its : json(map),
+                  role(*m, "ours", "error/flat/mean", 100.0), role(*m, "rays", "error/flat/mean", 100.0),
+                  map.empty() ? its : value(*m, best_map(*m, "flat"), "error/flat/mean", 100.0),
+                  role(*m, "ours", "against_rays/differing_percent"), ratio(its, ours)});
+    by_scene["x"]["values"].push_back(scene_label(*m));
+    ours_by_scene.push_back(ours), rays_by_scene.push_back(rays), map_by_scene.push_back(its);
+    if (its.is_number() && ours.is_number() && its <= ours)
+      section["notes"].push_back(fmt::format(
+          "{}: \"{}\" is nearer to the truth than 32 samples of izb ({:.3f} and {:.3f} %); the pictures show where. "
+          "Over flat pixels: {} and {} %.",
+          scene_label(*m), map, its.get<double>(), ours.get<double>(), percent_text(value(*m, map, "error/flat/mean")),
+          percent_text(role(*m, "ours", "error/flat/mean"))));
+  }
+  by_scene["series"] = {series("izb, 32 samples", ours_by_scene), series("32 rays", rays_by_scene),
+                        series("best map", map_by_scene)};
+  section["tables"].push_back(verdicts.json());
+  section["plots"].push_back(std::move(by_scene));
+
+  ReportTable details("peers-all", "Every technique on every scene",
+                      {{.name = "scene", .text = true},
+                       {.name = "technique", .text = true},
+                       {.name = "error", .unit = "%", .digits = 3, .group = "pixels that could be lit all over"},
+                       {.name = "RMSE", .unit = "%", .digits = 2, .group = "pixels that could be lit all over"},
+                       {.name = "leaks", .unit = "%", .digits = 3, .group = "pixels that could be lit all over"},
+                       {.name = "false shadow", .unit = "%", .digits = 3, .group = "pixels that could be lit all over"},
+                       {.name = "error", .unit = "%", .digits = 3, .group = "all pixels with a surface"},
+                       {.name = "FLIP", .digits = 4},
+                       {.name = "shadow stages", .unit = "ms"},
+                       {.name = "frame", .unit = "ms"}});
+  for (const Measured* m : e.jobs) {
+    for (const Configuration& c : m->job.configurations)
+      details.add({scene_label(*m), c.name, value(*m, c.name, "error/inner/mean", 100.0),
+                   value(*m, c.name, "error/inner/rmse", 100.0), value(*m, c.name, "error/inner/leaks", 100.0),
+                   value(*m, c.name, "error/inner/false_shadow", 100.0), value(*m, c.name, "error/all/mean", 100.0),
+                   value(*m, c.name, "flip_mean"), value(*m, c.name, "shadow_ms"), value(*m, c.name, "frame_ms")});
+    add_pictures(section, *m);
+  }
+  section["tables"].push_back(details.json());
+  return section;
+}
+
+}  // namespace izb::bench

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench/truth_file.h"
+
+#include "base/error.h"
+#include "base/version.h"
+#include "image/exr.h"
+#include "image/picture.h"
+
+namespace izb::bench {
+
+namespace {
+
+/// The truth's frames are so many times as wide and high, and box-filtered: a frame's vertices then serve 16 rays a
+/// pixel.
+constexpr int truth_scale = 4;
+
+Size truth_size(const Job& job) {
+  const Size size = parse_size(job.size);
+  return {truth_scale * size.width_px, truth_scale * size.height_px};
+}
+
+}  // namespace
+
+int truth_rays(const Job& job) {
+  return job.settings.value("truth_rays", 0);
+}
+
+std::filesystem::path truth_path(const Job& job, const std::filesystem::path& folder) {
+  return folder / "truth" / fmt::format("{}-{}-{}-{}.exr", job.scene.name, job.size, truth_rays(job), commit());
+}
+
+std::vector<std::string> truth_command(const Job& job, const std::filesystem::path& folder) {
+  const Size size = truth_size(job);
+  const int frames = truth_rays(job) / (truth_scale * truth_scale);
+  std::vector<std::string> words{"render",
+                                 job.scene.file,
+                                 "--technique",
+                                 "ray_traced",
+                                 "--spp",
+                                 "1",
+                                 "-o",
+                                 truth_path(job, folder).string(),
+                                 "--resume",
+                                 "on",
+                                 "--size",
+                                 fmt::format("{}x{}", size.width_px, size.height_px),
+                                 "--supersample",
+                                 std::to_string(frames),
+                                 "--context",
+                                 job.context};
+  for (const auto& [option, value] : job.scene.frame) {
+    words.push_back("--" + option);
+    words.push_back(value);
+  }
+  return words;
+}
+
+namespace {
+
+/// The channel of the first light: `name`, or with several lights `name.LIGHT`.
+const std::vector<float>& of_first_light(const Image& image, const std::string& name) {
+  if (image.find(name)) return image.floats(name);
+  for (const Channel& channel : image.channels)
+    if (channel.name.starts_with(name + ".")) return image.floats(channel.name);
+  return image.floats(name);  // says that it is missing
+}
+
+}  // namespace
+
+Truth read_truth(const Job& job, const std::filesystem::path& folder) {
+  const std::filesystem::path path = truth_path(job, folder);
+  const Image large = read_exr(path);
+  const Size size = truth_size(job);
+  if (large.width_px != size.width_px || large.height_px != size.height_px)
+    fail("'{}' has {} x {} pixels, not {} x {}", path.string(), large.width_px, large.height_px, size.width_px,
+         size.height_px);
+  const Image image = box_filter(large, truth_scale);
+  Truth truth;
+  truth.width_px = image.width_px, truth.height_px = image.height_px, truth.rays = truth_rays(job);
+  truth.surface = image.floats("surface");
+  truth.receiver = of_first_light(image, "receiver");
+  truth.lit = of_first_light(image, "lit");
+  const char* names[] = {"R", "G", "B"};
+  for (int i = 0; i < 3; ++i) truth.rgb[i] = image.floats(names[i]);
+  return truth;
+}
+
+}  // namespace izb::bench
