@@ -28,7 +28,7 @@ std::vector<uint8_t> flat_pixels(const Renderer& renderer) {
       const size_t i = size_t(y) * size_t(in.width_px) + size_t(x);
       if (gbuffer.eye_distance[i] <= 0.0f) continue;
       const glm::vec3 normal = shared::octahedral_direction(gbuffer.normal[i]);
-      const float most = 0.5f * shared::pixel_width(in.camera, gbuffer.eye_distance[i]);
+      const float most = 1.0f / 64.0f * shared::pixel_width(in.camera, gbuffer.eye_distance[i]);
       bool all = true;
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
