@@ -15,8 +15,8 @@ std::vector<float> lit_share(const Renderer& renderer);
 /// Whether each pixel is a receiver.
 std::vector<uint8_t> receivers_of(const Renderer& renderer);
 
-/// Whether each pixel's eight neighbours lie on its tangent plane, off by no more than 1/64 of a pixel's width: there one
-/// plane is a fair model of what is in the pixel. Of the renderer's last frame, top row first.
+/// Whether each pixel's eight neighbours lie on its tangent plane, off by no more than 1/64 of a pixel's width: there
+/// one plane is a fair model of what is in the pixel. Of the renderer's last frame, top row first.
 std::vector<uint8_t> flat_pixels(const Renderer& renderer);
 
 }  // namespace izb::bench
