@@ -6,11 +6,12 @@
 
 namespace izb {
 
-Peer::Peer(const Renderer& renderer)
+Peer::Peer(const Renderer& renderer, bool fastest_build_only)
     : tracer_(make_triangles(renderer.inputs()), reference::BuildQuality::low),
       samples_{{"low", reference::BuildQuality::low, {}, {}},
                {"medium", reference::BuildQuality::medium, {}, {}},
                {"high", reference::BuildQuality::high, {}, {}}} {
+  if (fastest_build_only) samples_.resize(1);
   const GBufferImage gbuffer = read_gbuffer(*renderer.inputs().gbuffer);
   for (size_t i = 0; i < renderer.light_count(); ++i) {
     receivers_.push_back(make_receivers(gbuffer, renderer.inputs(i)));

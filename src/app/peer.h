@@ -8,12 +8,12 @@
 
 namespace izb {
 
-/// Rebuilds the hierarchy of all the frame's triangles at each build quality and traces one ray a sample of each
-/// receiver, in packets of 16. Wall times in milliseconds.
+/// Rebuilds the hierarchy of all the frame's triangles at each build quality, or at the one that builds fastest, and
+/// traces one ray a sample of each receiver, in packets of 16. Wall times in milliseconds.
 class Peer {
  public:
   /// Takes the triangles and receivers of the renderer's last frame.
-  explicit Peer(const Renderer& renderer);
+  explicit Peer(const Renderer& renderer, bool fastest_build_only = false);
   void run();
   /// Medians: per quality rebuild_ms and trace_ms; fastest_rebuild_plus_trace_ms, rays.
   nlohmann::json to_json() const;

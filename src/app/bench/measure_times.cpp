@@ -58,7 +58,7 @@ void measure_times(const Job& job, Subjects& subjects, const std::filesystem::pa
   std::unique_ptr<Peer> peer;
   Subject* const first = first_working(subjects);
   if (first && job.settings.value("peer", false) && reference::embree_available())
-    peer = std::make_unique<Peer>(*first->renderer);
+    peer = std::make_unique<Peer>(*first->renderer, true);
   Progress progress(job.experiment + " " + job.scene.name, uint64_t(job.frames));
   for (int i = 0; i < job.frames; ++i) {
     subjects.round(true);

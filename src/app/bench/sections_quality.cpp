@@ -13,12 +13,12 @@ using nlohmann::json;
 namespace {
 
 json bars(const std::string& id, const std::string& title, const std::string& y, const std::string& unit,
-          const std::vector<std::string>& names, const char* scale = "linear") {
+          const std::vector<std::string>& names) {
   json plot{{"id", id},
             {"kind", "bars"},
             {"title", title},
             {"x", {{"label", "technique"}, {"scale", "category"}, {"values", names}}},
-            {"y", {{"label", y}, {"scale", scale}}},
+            {"y", {{"label", y}, {"scale", "linear"}}},
             {"series", json::array()}};
   if (!unit.empty()) plot["y"]["unit"] = unit;
   return plot;
@@ -124,7 +124,7 @@ json peers_section(const Evidence& e) {
                        {.name = "pixels wrong by more than 1/8", .unit = "%", .digits = 2},
                        {.name = "FLIP", .digits = 4},
                        {.name = "shadow stages", .unit = "ms"}});
-  json plot = bars("peers-error", "Error of the share of light, median of the scenes", "error", "%", names, "log");
+  json plot = bars("peers-error", "Error of the share of light, median of the scenes", "error", "%", names);
   std::vector<json> errors;
   for (const std::string& name : names) {
     const auto over_scenes = [&](const std::string& what, double scale) {
@@ -158,7 +158,7 @@ json peers_section(const Evidence& e) {
                 {"kind", "bars"},
                 {"title", "Error of the share of light by scene"},
                 {"x", {{"label", "scene"}, {"scale", "category"}, {"values", json::array()}}},
-                {"y", {{"label", "error"}, {"unit", "%"}, {"scale", "log"}}},
+                {"y", {{"label", "error"}, {"unit", "%"}, {"scale", "linear"}}},
                 {"series", json::array()}};
   std::vector<json> ours_by_scene, rays_by_scene, map_by_scene;
   for (const Measured* m : e.jobs) {
