@@ -55,6 +55,14 @@ fs::path temporary_beside(const fs::path& target) {
   return target.parent_path() / fmt::format(".izb-{}-{}.tmp", getpid(), count++);
 }
 
+/// The process that made a temporary of such a name; 0: it is none.
+pid_t maker_of(const std::string& name) {
+  int process = 0, used = 0;
+  unsigned count = 0;
+  const bool is_one = std::sscanf(name.c_str(), ".izb-%d-%u.tmp%n", &process, &count, &used) == 2;
+  return is_one && used == int(name.size()) && process > 0 ? process : 0;
+}
+
 /// Names that the signal handler may read at any moment: of fixed size and never freed.
 struct Slot {
   enum State { free, taken, ready };
@@ -164,6 +172,14 @@ void remove_temporaries_on_signals() {
     action.sa_flags = int(SA_RESETHAND);
     sigemptyset(&action.sa_mask);
     sigaction(signal, &action, nullptr);
+  }
+}
+
+void remove_stale_temporaries(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const pid_t maker = maker_of(at->path().filename().string());
+    if (maker != 0 && kill(maker, 0) != 0 && errno == ESRCH) unlink(at->path().c_str());
   }
 }
 

@@ -54,6 +54,11 @@ class AtomicFile {
 /// From now on SIGINT, SIGTERM and SIGHUP remove the temporaries of this process before they end it.
 void remove_temporaries_on_signals();
 
+/// Removes from the folder, not from those in it, what AtomicFile left there when its process was killed; what belongs
+/// to a process that runs stays. Only for a folder that no other machine and no other container writes to: their
+/// processes are not seen here.
+void remove_stale_temporaries(const std::filesystem::path& folder);
+
 /// Writes all of a file, or throws izb::Error and leaves what was there.
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_file_atomically(const std::filesystem::path& path, std::string_view text);

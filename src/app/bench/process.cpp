@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -50,14 +51,32 @@ void end(pid_t child, int& status) {
 }  // namespace
 
 void catch_interrupts() {
-  struct sigaction action {};
-  action.sa_handler = note_signal;
-  sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    sigaction(signal, nullptr, &action);
+    if (action.sa_handler == SIG_IGN) continue;
+    action.sa_handler = note_signal;
+    action.sa_flags = SA_RESTART;  // what is being written is written
+    sigemptyset(&action.sa_mask);
+    sigaction(signal, &action, nullptr);
+  }
 }
 
 bool interrupted() {
   return asked_to_end != 0;
+}
+
+FolderLock::FolderLock(const std::filesystem::path& folder)
+    : folder_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (folder_ < 0) fail("cannot open the folder '{}': {}", folder.string(), std::strerror(errno));
+  held_ = flock(folder_, LOCK_EX | LOCK_NB) == 0;
+  if (held_ || errno != EWOULDBLOCK) return;
+  close(folder_);
+  fail("another izb bench is at work in '{}'", folder.string());
+}
+
+FolderLock::~FolderLock() {
+  close(folder_);
 }
 
 ChildEnd run_child(const std::vector<std::string>& arguments, const std::filesystem::path& log_path,
