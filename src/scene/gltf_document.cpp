@@ -24,6 +24,7 @@
 #include "base/log.h"
 #include "scene/gltf_check.h"
 #include "scene/gltf_compression.h"
+#include "scene/gltf_uri.h"
 
 namespace izb {
 namespace {
@@ -132,25 +133,6 @@ json parse_json(std::string_view text, bool glb) {
   } catch (const json::exception&) {
     fail("its JSON holds a number that is out of range");
   }
-}
-
-std::string percent_decoded(std::string_view uri) {
-  const auto digit = [](char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-  };
-  std::string text;
-  for (size_t i = 0; i < uri.size(); ++i) {
-    if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0) {
-      text += static_cast<char>(digit(uri[i + 1]) * 16 + digit(uri[i + 2]));
-      i += 2;
-    } else {
-      text += uri[i];
-    }
-  }
-  return text;
 }
 
 /// What tinygltf may read while it parses: exactly the files and images that the scene shows.

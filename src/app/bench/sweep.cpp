@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "app/bench/scene_file.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "base/sha256.h"
 #include "base/version.h"
 #include "scene/procedural.h"
 
@@ -28,9 +28,9 @@ bool is_scene_file(const fs::path& path) {
 
 std::vector<fs::path> scene_files(const fs::path& folder) {
   std::vector<fs::path> files;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
-    if (entry.is_regular_file() && is_scene_file(entry.path())) files.push_back(entry.path());
+  std::error_code error, ignored;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (at->is_regular_file(ignored) && is_scene_file(at->path())) files.push_back(at->path());
   if (error) fail("cannot read the folder '{}': {}", folder.string(), error.message());
   std::sort(files.begin(), files.end());
   return files;
@@ -49,22 +49,50 @@ json value_for(const json& part, const std::string& key, Extent extent, const js
   return otherwise;
 }
 
+/// Results, tables and pictures go by the names: a file whose name is taken has its folder's before its own, and what
+/// is there twice is there once.
+void make_names_unique(std::vector<BenchScene>& scenes) {
+  std::vector<BenchScene> unique;
+  const auto with_name = [&](const std::string& name) {
+    return std::find_if(unique.begin(), unique.end(), [&](const BenchScene& s) { return s.name == name; });
+  };
+  for (BenchScene& scene : scenes) {
+    const auto same =
+        std::find_if(unique.begin(), unique.end(), [&](const BenchScene& s) { return s.file == scene.file; });
+    if (same != unique.end()) continue;
+    if (with_name(scene.name) != unique.end()) {
+      const fs::path path = scene.file;
+      const std::string longer = (path.parent_path().filename() / path.filename()).string();
+      scene.name = longer;
+      for (int n = 2; with_name(scene.name) != unique.end(); ++n) scene.name = fmt::format("{} ({})", longer, n);
+    }
+    unique.push_back(std::move(scene));
+  }
+  scenes = std::move(unique);
+}
+
 class Planner {
  public:
-  Planner(const SweepRequest& request, fs::path folder)
-      : request_(request), folder_(std::move(folder)), views_(read_bench_data("views.json")) {
-    for (const std::string& word : request.scenes) add_scenes(given_, word, 0);
-  }
+  Planner(const SweepRequest& request, const fs::path& folder)
+      : request_(request),
+        folder_(folder.empty() ? folder : fs::absolute(folder)),
+        views_(read_bench_data("views.json")) {}
 
   void add(std::vector<Job>& jobs, const std::string& experiment, const json& part) {
     const int triangles = value_for(part, "triangles", request_.extent, 0).get<int>();
-    std::vector<BenchScene> scenes = given_;
+    std::vector<BenchScene> scenes;
+    for (const std::string& word : request_.scenes) add_scenes(scenes, word, triangles);
     if (request_.scenes.empty())
       for (const json& word : value_for(part, "scenes", request_.extent, json::array()))
         add_scenes(scenes, word.get<std::string>(), triangles);
+    // Files after what the sweeps name, so that the latter keep their names.
+    std::stable_partition(scenes.begin(), scenes.end(), [](const BenchScene& s) { return !s.procedural.empty(); });
+    make_names_unique(scenes);
     for (BenchScene& scene : scenes) {
       if (!scene.procedural.empty() && part.contains("procedural_frame"))
         for (const auto& [option, value] : part["procedural_frame"].items()) scene.frame[option] = value;
+      if (scene.procedural.empty() && part.at("measure") == "animation" && files_.at(scene.file).animated)
+        scene.frame["time"] = "0", scene.frame["loop"] = "on";
       add_jobs(jobs, experiment, part, scene);
     }
   }
@@ -80,6 +108,8 @@ class Planner {
     job.size =
         request_.size.empty() ? value_for(part, "size", request_.extent, "1280x720").get<std::string>() : request_.size;
     job.frames = request_.frames > 0 ? request_.frames : value_for(part, "frames", request_.extent, 3).get<int>();
+    // A change takes two.
+    if (job.measure == "temporal") job.frames = std::max(job.frames, 2);
     const json settings = part.value("settings", json::object());
     for (const auto& setting : settings.items())
       job.settings[setting.key()] = value_for(settings, setting.key(), request_.extent, nullptr);
@@ -102,8 +132,12 @@ class Planner {
     }
   }
 
-  /// `word`: a procedural scene, a file, a folder, or "files".
+  /// `word`: a procedural scene, whatever lies in the working directory; a file or a folder; "files".
   void add_scenes(std::vector<BenchScene>& scenes, const std::string& word, int triangles) {
+    if (find_procedural(word)) {
+      scenes.push_back(procedural_scene(word, triangles));
+      return;
+    }
     if (word == "files") {
       if (const char* folder = std::getenv("IZB_SCENES"))
         for (const fs::path& file : scene_files(folder)) scenes.push_back(file_scene(file));
@@ -111,15 +145,13 @@ class Planner {
     }
     std::error_code ignored;
     if (fs::is_directory(word, ignored)) {
-      for (const fs::path& file : scene_files(word)) scenes.push_back(file_scene(file));
+      const std::vector<fs::path> files = scene_files(word);
+      if (files.empty()) throw UsageError(fmt::format("the folder '{}' holds no .glb and no .gltf", word));
+      for (const fs::path& file : files) scenes.push_back(file_scene(file));
       return;
     }
     if (fs::exists(word, ignored)) {
       scenes.push_back(file_scene(word));
-      return;
-    }
-    if (find_procedural(word)) {
-      scenes.push_back(procedural_scene(word, triangles));
       return;
     }
     if (const char* folder = std::getenv("IZB_SCENES"))
@@ -144,19 +176,30 @@ class Planner {
     return scene;
   }
 
-  BenchScene file_scene(const fs::path& path) const {
+  BenchScene file_scene(const fs::path& path) {
     BenchScene scene;
     scene.name = path.stem().string();
-    scene.file = path.string();
-    scene.sha256 = sha256_hex(read_binary_file(path));
+    scene.file = fs::absolute(path).lexically_normal().string();
+    auto known = files_.find(scene.file);
+    if (known == files_.end()) known = files_.emplace(scene.file, known_of(scene.file)).first;
+    scene.sha256 = known->second.sha256;
     if (views_.contains(scene.name)) scene.frame["viewpoint"] = scene.name;
     return scene;
+  }
+
+  /// One that cannot be read is a row that says so, not the end of the others.
+  static SceneFile known_of(const fs::path& path) {
+    try {
+      return look_into(path);
+    } catch (const Error&) {
+      return {};
+    }
   }
 
   const SweepRequest& request_;
   fs::path folder_;
   json views_;
-  std::vector<BenchScene> given_;
+  std::map<std::string, SceneFile> files_;  ///< that are read already
 };
 
 json parts_of(const json& experiment) {

@@ -14,9 +14,10 @@ enum class Extent { quick, full, complete };
 /// What the person asks to be otherwise than in the sweeps.
 struct SweepRequest {
   std::vector<std::string> experiments;  ///< in the order of the tables; all where empty
-  std::vector<std::string> scenes;  ///< files, folders, names of procedural scenes; those of the sweeps where empty
-  std::string size;                 ///< empty: that of the sweeps
-  int frames = 0;                   ///< 0: as many as in the sweeps
+  /// Names of procedural scenes, files, folders, names of files in $IZB_SCENES; those of the sweeps where empty.
+  std::vector<std::string> scenes;
+  std::string size;  ///< empty: that of the sweeps
+  int frames = 0;    ///< 0: as many as in the sweeps
   std::string context = "auto";
   Extent extent = Extent::full;
 };
@@ -30,8 +31,9 @@ inline constexpr const char* experiment_names[] = {"table1",    "table2", "figur
                                                    "ablations", "memory", "temporal", "peers"};
 
 /// The jobs of a request. Files of procedural scenes are named below `folder` and need not exist yet. The word "files"
-/// among a sweep's scenes stands for those of the folder in the environment variable IZB_SCENES. Throws izb::UsageError
-/// for an unknown scene, izb::Error for a file that cannot be read.
+/// among a sweep's scenes stands for those of the folder in the environment variable IZB_SCENES. Of one experiment no
+/// two scenes have the same name. Throws izb::UsageError for an unknown scene and for a folder without any, izb::Error
+/// for a folder that cannot be read.
 std::vector<Job> plan(const nlohmann::json& sweeps, const SweepRequest& request, const std::filesystem::path& folder);
 
 }  // namespace izb::bench
