@@ -32,11 +32,29 @@ struct BenchOptions {
   Arguments arguments;
 };
 
+/// Removes the tables of the report that is there which the next one does not have: they would stand beside it as if
+/// they were its.
+void remove_other_tables(const fs::path& folder, const std::map<std::string, std::string>& tables) {
+  std::error_code error;
+  if (!fs::exists(folder / "report.json", error)) return;
+  const json old = json::parse(read_text_file(folder / "report.json"), nullptr, false);
+  try {
+    for (const json& section : old.at("sections"))
+      for (const json& table : section.at("tables")) {
+        const std::string name = table.at("id").get<std::string>() + ".csv";
+        if (!tables.contains(name) && name.find('/') == std::string::npos) fs::remove(folder / name, error);
+      }
+  } catch (const json::exception&) {  // no report of ours
+  }
+}
+
 /// Writes everything that is made from the results: at any moment it says what has been measured until then.
 void write_reports(const fs::path& folder, const json& document) {
+  std::map<std::string, std::string> tables;
   for (const json& section : document["sections"])
-    for (const json& table : section["tables"])
-      write_file_atomically(folder / (table["id"].get<std::string>() + ".csv"), csv_of(table));
+    for (const json& table : section["tables"]) tables[table["id"].get<std::string>() + ".csv"] = csv_of(table);
+  remove_other_tables(folder, tables);
+  for (const auto& [name, text] : tables) write_file_atomically(folder / name, text);
   write_file_atomically(folder / "report.json", json_text(document, 1) + "\n");
   write_file_atomically(folder / "report.html", make_report(document, folder));
 }
@@ -66,7 +84,8 @@ int run_bench(BenchOptions& o) {
   o.run.resume = o.resume;
   o.run.time_limit_s = o.time_limit_s;
   if (!o.request.size.empty()) parse_size(o.request.size);
-  std::erase(o.request.experiments, "all");
+  auto& wanted = o.request.experiments;
+  if (std::find(wanted.begin(), wanted.end(), "all") != wanted.end()) wanted.clear();
   const json sweeps = read_bench_data("sweeps.json"), paper = read_bench_data("paper.json");
   const std::vector<Job> jobs = plan(sweeps, o.request, o.run.folder);
   if (o.list) {
@@ -76,6 +95,8 @@ int run_bench(BenchOptions& o) {
   if (o.output.empty()) throw UsageError("nowhere to write: give -o FOLDER");
   if (jobs.empty()) throw UsageError("nothing to measure");
   prepare_folder(o);
+  const FolderLock lock(o.run.folder);
+  o.run.alone = lock.held();
   const json made = made_json(Gl(o.request.context));
   const std::string command = origin_json(o.arguments)["command"];
   const std::string extent = o.quick      ? "quick: small pictures and scenes"
@@ -118,7 +139,8 @@ Command add_bench(CLI::App& app, const Arguments& arguments) {
                 "go on with the results in the folder that were measured under the same conditions");
   sub->add_flag("--list", o->list, "only say what would be measured");
   OptionSet set;
-  set.text("size", o->request.size, "WIDTHxHEIGHT", "the picture's size, instead of that of the sweeps");
+  set.text("size", o->request.size, "WIDTHxHEIGHT",
+           "the picture's size, instead of that of the sweeps; where the sweep is over sizes, its own stay");
   set.integer("frames", o->request.frames, 0, 100000, "frames", "frames to time, 0: as in the sweeps");
   set.integer("time-limit", o->time_limit_s, 1, 1000000, "seconds", "after which a scene's job is given up");
   set.choice("context", o->request.context, gpu::context_names(), "how to get an OpenGL 4.5 context");

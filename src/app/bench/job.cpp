@@ -2,8 +2,11 @@
 #include "app/bench/job.h"
 
 #include <algorithm>
+#include <cctype>
+#include <span>
 
 #include "base/error.h"
+#include "base/sha256.h"
 
 namespace izb::bench {
 
@@ -36,6 +39,23 @@ nlohmann::json to_json(const Job& job) {
 
 Job job_from(const nlohmann::json& text) {
   return text.get<Job>();
+}
+
+bool same_work(Job a, Job b) {
+  a.scene.file.clear(), b.scene.file.clear();
+  return to_json(a) == to_json(b);
+}
+
+std::string file_word(const std::string& name) {
+  constexpr size_t most = 100;  // of the 255 bytes that file systems allow
+  const auto stays = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c >= 0x80; };
+  std::string word = name.substr(0, most);
+  if (name.size() > most)
+    word.erase(std::find_if(word.begin(), word.end(), [](unsigned char c) { return c >= 0x80; }), word.end());
+  std::replace_if(
+      word.begin(), word.end(), [&](char c) { return !stays(static_cast<unsigned char>(c)); }, '_');
+  if (word != name) word += "-" + sha256_hex(std::as_bytes(std::span(name))).substr(0, 8);
+  return word;
 }
 
 FrameOptions frame_options(const Job& job) {

@@ -47,6 +47,13 @@ nlohmann::json to_json(const Job& job);
 /// Throws nlohmann::json::exception where `json` was not made by to_json().
 Job job_from(const nlohmann::json& json);
 
+/// Whether they measure the same, wherever the scene's file lies.
+bool same_work(Job a, Job b);
+
+/// A name as a part of a file's: letters, digits, '_', '-' and what is not ASCII. Where more had to go, or it is long,
+/// it ends with a digest, so that two names never become one.
+std::string file_word(const std::string& name);
+
 /// The options of the job's frame. Throws izb::UsageError for an option that there is not.
 FrameOptions frame_options(const Job& job);
 /// The technique with its options. Throws izb::UsageError likewise.

@@ -78,6 +78,7 @@ nlohmann::json made_json(const Gl& gl) {
 }
 
 bool same_conditions(const nlohmann::json& made, const nlohmann::json& other) {
+  if (!made.is_object() || !other.is_object()) return false;
   for (const char* key : {"version", "machine", "gl", "software", "embree"})
     if (made.value(key, nlohmann::json()) != other.value(key, nlohmann::json())) return false;
   return true;

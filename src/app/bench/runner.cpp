@@ -14,6 +14,8 @@
 #include "base/file.h"
 #include "base/json_text.h"
 #include "base/log.h"
+#include "image/exr.h"
+#include "image/png.h"
 
 namespace izb::bench {
 namespace {
@@ -21,10 +23,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// A name as a part of a file's.
-std::string file_word(std::string text) {
+/// Of a name that the sweeps give, which are told apart by more than what is replaced.
+std::string short_word(std::string text) {
   for (char& c : text)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-' && !(c & 0x80)) c = '_';
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
   return text;
 }
 
@@ -32,6 +34,33 @@ json read_result(const fs::path& path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return nullptr;
   return json::parse(read_text_file(path), nullptr, false);  // discarded where it is none
+}
+
+/// Whether the report can show every picture of a result.
+bool has_pictures(const json& result, const fs::path& folder) {
+  const json pictures = result.value("pictures", json::array());
+  for (const json& group : pictures.is_array() ? pictures : json::array({pictures}))
+    for (const json& file : group.at("files")) {
+      const fs::path path = folder / file.at("file").get<std::string>();
+      try {
+        read_png(read_binary_file(path), path.string());
+      } catch (const Error&) {
+        return false;
+      }
+    }
+  return true;
+}
+
+/// The job's result of an earlier run; null where there is none, or of other work, or of other conditions, or damaged.
+json result_there(const Job& job, const fs::path& folder, const json& made) {
+  try {
+    json result = read_result(result_path(job, folder));
+    if (result.is_object() && !result.contains("failed") && same_work(job_from(result.at("job")), job) &&
+        same_conditions(result.at("made"), made) && has_pictures(result, folder))
+      return result;
+  } catch (const json::exception&) {  // JSON, but no result
+  }
+  return nullptr;
 }
 
 /// What the program said last before it failed.
@@ -42,6 +71,15 @@ std::string last_sentence(const fs::path& log) {
   for (std::string line; std::getline(in, line);)
     if (line.starts_with(prefix)) sentence = line.substr(prefix.size());
   return sentence;
+}
+
+/// All folders that jobs write to.
+std::vector<fs::path> folders_below(const fs::path& folder) {
+  std::vector<fs::path> all{folder};
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (std::error_code ignored; at->is_directory(ignored) && !at->is_symlink(ignored)) all.push_back(at->path());
+  return all;
 }
 
 std::string why(const ChildEnd& end, const fs::path& log, double time_limit_s) {
@@ -66,17 +104,28 @@ class Runner {
   json run(const Job& job) {
     const fs::path path = result_path(job, options_.folder);
     make_folder(path.parent_path());
+    // What is there is of other work, or failed; and the pictures that it names are about to be others.
+    std::error_code error;
+    fs::remove(path, error);
+    if (error) fail("cannot replace '{}': {}", path.string(), error.message());
     fs::path log = path;
     log.replace_extension(".log");
     ChildEnd end = make_scene(job, log);
     if (end.well()) end = make_truth(job, log);
     if (end.well()) end = run_child({"bench-job", json_text(to_json(job)), path.string()}, log, options_.time_limit_s);
+    if (!end.well()) clean_up();
     if (end.interrupted) return nullptr;
     json result = read_result(path);
     if (end.well() && result.is_object()) return result;
     result = {{"job", to_json(job)}, {"made", made_}, {"failed", why(end, log, options_.time_limit_s)}};
     write_file_atomically(path, json_text(result, 1) + "\n");
     return result;
+  }
+
+  /// Removes what killed children left half written.
+  void clean_up() const {
+    if (!options_.alone) return;
+    for (const fs::path& folder : folders_below(options_.folder)) remove_stale_temporaries(folder);
   }
 
  private:
@@ -93,6 +142,14 @@ class Runner {
   ChildEnd make_truth(const Job& job, const fs::path& log) const {
     if (truth_rays(job) == 0) return {};
     make_folder(truth_path(job, options_.folder).parent_path());
+    const fs::path path = truth_path(job, options_.folder);
+    // It goes on from what an earlier run left there, unless that is damaged.
+    std::error_code ignored;
+    try {
+      if (fs::exists(path, ignored)) read_exr(path);
+    } catch (const Error&) {
+      fs::remove(path, ignored);
+    }
     return run_child(truth_command(job, options_.folder), log, options_.time_limit_s);
   }
 
@@ -125,15 +182,15 @@ std::string duration_text(double s) {
 }  // namespace
 
 std::string Measured::reason() const {
-  if (result.is_null()) return "not measured: the run was interrupted";
+  if (result.is_null()) return "not measured until now";
   return result.value("failed", "");
 }
 
 fs::path result_path(const Job& job, const fs::path& folder) {
-  std::string name = job.part.empty() ? "" : file_word(job.part) + ".";
+  std::string name = job.part.empty() ? "" : short_word(job.part) + ".";
   name += file_word(job.scene.name);
-  if (job.settings.value("process_each", false)) name += "." + file_word(job.configurations.at(0).name);
-  return folder / "runs" / file_word(job.experiment) / (name + ".json");
+  if (job.settings.value("process_each", false)) name += "." + short_word(job.configurations.at(0).name);
+  return folder / "runs" / short_word(job.experiment) / (name + ".json");
 }
 
 std::vector<Measured> run_jobs(const std::vector<Job>& jobs, const RunOptions& options, const json& made,
@@ -142,14 +199,11 @@ std::vector<Measured> run_jobs(const std::vector<Job>& jobs, const RunOptions& o
   double work = 0.0;
   for (const Job& job : jobs) {
     Measured& m = all.emplace_back(Measured{job, nullptr});
-    json there = options.resume ? read_result(result_path(job, options.folder)) : json();
-    if (there.is_object() && !there.contains("failed") && there.value("job", json()) == to_json(job) &&
-        same_conditions(there.value("made", json::object()), made))
-      m.result = std::move(there);
-    else
-      work += weight(job);
+    if (options.resume) m.result = result_there(job, options.folder, made);
+    if (m.result.is_null()) work += weight(job);
   }
   Runner runner(options, made);
+  runner.clean_up();
   const auto start = std::chrono::steady_clock::now();
   const auto elapsed_s = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -2,6 +2,8 @@
 #include "app/bench/truth_file.h"
 
 #include "base/error.h"
+#include "base/json_text.h"
+#include "base/sha256.h"
 #include "base/version.h"
 #include "image/exr.h"
 #include "image/picture.h"
@@ -26,7 +28,13 @@ int truth_rays(const Job& job) {
 }
 
 std::filesystem::path truth_path(const Job& job, const std::filesystem::path& folder) {
-  return folder / "truth" / fmt::format("{}-{}-{}-{}.exr", job.scene.name, job.size, truth_rays(job), commit());
+  // Which scene, seen from where, by which driver: one of another file, or of another camera, is another's.
+  Job what;
+  what.scene = job.scene, what.context = job.context;
+  const std::string text = json_text(to_json(what));
+  const std::string digest = sha256_hex(std::as_bytes(std::span(text))).substr(0, 8);
+  return folder / "truth" /
+         fmt::format("{}-{}-{}-{}-{}.exr", file_word(job.scene.name), job.size, truth_rays(job), digest, commit());
 }
 
 std::vector<std::string> truth_command(const Job& job, const std::filesystem::path& folder) {
@@ -55,18 +63,6 @@ std::vector<std::string> truth_command(const Job& job, const std::filesystem::pa
   return words;
 }
 
-namespace {
-
-/// The channel of the first light: `name`, or with several lights `name.LIGHT`.
-const std::vector<float>& of_first_light(const Image& image, const std::string& name) {
-  if (image.find(name)) return image.floats(name);
-  for (const Channel& channel : image.channels)
-    if (channel.name.starts_with(name + ".")) return image.floats(channel.name);
-  return image.floats(name);  // says that it is missing
-}
-
-}  // namespace
-
 Truth read_truth(const Job& job, const std::filesystem::path& folder) {
   const std::filesystem::path path = truth_path(job, folder);
   const Image large = read_exr(path);
@@ -78,8 +74,8 @@ Truth read_truth(const Job& job, const std::filesystem::path& folder) {
   Truth truth;
   truth.width_px = image.width_px, truth.height_px = image.height_px, truth.rays = truth_rays(job);
   truth.surface = image.floats("surface");
-  truth.receiver = of_first_light(image, "receiver");
-  truth.lit = of_first_light(image, "lit");
+  truth.receiver = image.floats("receiver");
+  truth.lit = image.floats("lit");
   const char* names[] = {"R", "G", "B"};
   for (int i = 0; i < 3; ++i) truth.rgb[i] = image.floats(names[i]);
   return truth;

@@ -20,7 +20,7 @@ struct Truth {
   std::vector<float> surface, receiver, lit;  ///< shares of the rays, see supersample.h
   std::vector<float> rgb[3];                  ///< linear light
 };
-/// Throws izb::Error if the file is missing or is not what the job needs.
+/// Throws izb::Error if the file is missing or is not what the job needs: one of several lights has no one answer.
 Truth read_truth(const Job& job, const std::filesystem::path& folder);
 
 }  // namespace izb::bench
