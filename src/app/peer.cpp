@@ -40,7 +40,11 @@ nlohmann::json Peer::to_json() const {
   double fastest_rebuild = 0.0, its_sum = 0.0;
   for (const Samples& s : samples_) {
     const double rebuild = median(s.rebuild_ms), trace = median(s.trace_ms);
-    json[s.name] = {{"rebuild_ms", rebuild}, {"trace_ms", trace}, {"sum_ms", rebuild + trace}};
+    json[s.name] = {{"rebuild_ms", rebuild},
+                    {"trace_ms", trace},
+                    {"sum_ms", rebuild + trace},
+                    {"rebuild_samples", s.rebuild_ms},
+                    {"trace_samples", s.trace_ms}};
     if (its_sum == 0.0 || rebuild < fastest_rebuild) {
       fastest_rebuild = rebuild;
       its_sum = rebuild + trace;

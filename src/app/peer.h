@@ -15,7 +15,7 @@ class Peer {
   /// Takes the triangles and receivers of the renderer's last frame.
   explicit Peer(const Renderer& renderer, bool fastest_build_only = false);
   void run();
-  /// Medians: per quality rebuild_ms and trace_ms; fastest_rebuild_plus_trace_ms, rays.
+  /// Medians: per quality rebuild_ms and trace_ms, with their samples, and sum_ms; fastest_rebuild_plus_trace_ms, rays.
   nlohmann::json to_json() const;
 
  private:

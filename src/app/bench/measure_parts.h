@@ -13,7 +13,7 @@ namespace izb::bench {
 void measure_times(const Job& job, Subjects& subjects, const std::filesystem::path& folder, nlohmann::json& result);
 
 /// The same over an animation: round n stands n / `fps` seconds after `first_s` (both settings), so that sample n of
-/// each list is that frame's. Counts are of the last frame.
+/// each list is that frame's. Counts are of the last frame. Of a scene that does not move every configuration fails.
 void measure_animation(const Job& job, Subjects& subjects, const std::filesystem::path& folder, nlohmann::json& result);
 
 /// Times, and of each configuration `speed_of_light` (tests, ms, same_mask; table 2), or `speed_of_light_failed`.
@@ -25,7 +25,7 @@ void measure_beams(const Job& job, Subjects& subjects, const std::filesystem::pa
 
 /// Over `job.frames` steps, of the camera by `step_px` pixels or of the light by `step_deg` degrees (settings), of each
 /// configuration `temporal`: flips (pixels that go from mostly lit to mostly not or back), the mean change of the share
-/// of light, and how far that is from the change in truth, which is the first configuration.
+/// of light, and how far that is from the change in truth, which is the first configuration. At least two steps.
 void measure_temporal(const Job& job, Subjects& subjects, const std::filesystem::path& folder, nlohmann::json& result);
 
 /// Times, and of each configuration `error` (of the share of light against read_truth(), over `all` pixels with a

@@ -145,7 +145,7 @@ std::vector<json> insets(const Job& job, const Truth& truth, const std::vector<J
     const PixelRect r = richest(where, truth.width_px, truth.height_px);
     std::vector<json> files;
     const auto add_file = [&](const std::vector<float>& lit, const std::string& label) {
-      const std::string name = fmt::format("images/peers-{}-{}-{}.png", job.scene.name, id, files.size());
+      const std::string name = fmt::format("images/peers-{}-{}-{}.png", file_word(job.scene.name), id, files.size());
       write_png(folder / name, part_of(grey(lit, truth.width_px, truth.height_px), r));
       files.push_back({{"file", name}, {"label", label}});
     };
@@ -172,7 +172,7 @@ std::vector<json> insets(const Job& job, const Truth& truth, const std::vector<J
   for (const Judged* j : {ours, best_map}) {
     std::vector<float> error(j->error.size());
     std::transform(j->error.begin(), j->error.end(), error.begin(), [](float e) { return std::abs(e); });
-    const std::string name = fmt::format("images/peers-{}-error-{}.png", job.scene.name, maps.size());
+    const std::string name = fmt::format("images/peers-{}-error-{}.png", file_word(job.scene.name), maps.size());
     write_png(folder / name, heat_map(error, truth.width_px, truth.height_px, 1.0f));
     maps.push_back({{"file", name}, {"label", j->subject->configuration.name}});
   }

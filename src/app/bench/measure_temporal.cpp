@@ -6,6 +6,7 @@
 
 #include "app/bench/lit_share.h"
 #include "app/bench/measure_parts.h"
+#include "base/error.h"
 #include "base/progress.h"
 #include "frame/samples.h"
 #include "image/heat_map.h"
@@ -41,12 +42,12 @@ std::vector<float> light_seen(Subject& s) {
 }
 
 /// `truth`: how far each pixel truly changed in this step.
-void add_step(Changes& c, const std::vector<float>& now, const std::vector<float>* truth) {
+void add_step(Changes& c, const std::vector<float>& now, const std::vector<float>& truth) {
   if (c.before.empty()) c.flips_a_pixel.resize(now.size());
   for (size_t i = 0; i < c.before.size(); ++i) {
     const float step = now[i] - c.before[i];
     c.change += std::abs(step);
-    if (truth) c.excess += std::abs(step - (*truth)[i]);
+    if (!truth.empty()) c.excess += std::abs(step - truth[i]);
     const bool flipped = (now[i] >= 0.5f) != (c.before[i] >= 0.5f);
     c.flips += flipped;
     c.flips_a_pixel[i] += flipped;
@@ -54,48 +55,83 @@ void add_step(Changes& c, const std::vector<float>& now, const std::vector<float
   c.before = now;
 }
 
-/// The scene's camera with its grid of pixels moved, or its light turned, by `step` steps.
-void stand(const Job& job, const FrameChoice& at_rest, int step, Camera& camera, std::vector<Light>& lights) {
+/// `v` by an angle about an axis across it, as near to the vertical as there is.
+glm::dvec3 turned(const glm::dvec3& v, double angle_rad) {
+  const double length = glm::length(v);
+  if (!(length > 0.0)) return v;
+  const glm::dvec3 along = v / length;
+  const glm::dvec3 up = std::abs(along.y) < 0.999 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+  const glm::dvec3 axis = glm::normalize(up - along * glm::dot(up, along));
+  return std::cos(angle_rad) * v + std::sin(angle_rad) * glm::cross(axis, v);
+}
+
+/// The scene's camera with its grid of pixels moved, or its light turned, by `step` steps. A light that shines all
+/// around goes around the scene's middle.
+void stand(const Job& job, const FrameChoice& at_rest, const glm::dvec3& middle_ws, int step, Camera& camera,
+           std::vector<Light>& lights) {
   camera = at_rest.camera, lights = at_rest.lights;
   if (job.part == "camera") {
     // A direction along which no row or column of pixels is met twice.
     camera.pixel_shift += step * job.settings.at("step_px").get<double>() * glm::dvec2(0.8, 0.6);
     return;
   }
-  const double angle = glm::radians(step * job.settings.at("step_deg").get<double>());
-  for (Light& light : lights) {
-    const glm::dvec3 d = light.direction_ws;
-    light.direction_ws = {std::cos(angle) * d.x + std::sin(angle) * d.z, d.y,
-                          std::cos(angle) * d.z - std::sin(angle) * d.x};
-  }
+  const double angle_rad = glm::radians(step * job.settings.at("step_deg").get<double>());
+  for (Light& light : lights)
+    if (light.type == LightType::point)
+      light.position_ws = middle_ws + turned(light.position_ws - middle_ws, angle_rad);
+    else
+      light.direction_ws = turned(light.direction_ws, angle_rad);
+}
+
+/// How far each pixel changed since the last step; nothing before the first.
+std::vector<float> step_of(const Changes& c, const std::vector<float>& lit) {
+  std::vector<float> step;
+  for (size_t i = 0; i < c.before.size(); ++i) step.push_back(lit[i] - c.before[i]);
+  return step;
+}
+
+nlohmann::json temporal_json(const Changes& c, int steps, bool truth_works) {
+  const double pixel_steps = double(c.before.size()) * steps;
+  nlohmann::json its{{"flips", c.flips},
+                     {"flips_a_thousand_pixel_steps", 1e3 * double(c.flips) / pixel_steps},
+                     {"mean_change", c.change / pixel_steps}};
+  if (truth_works)
+    its["mean_difference_from_truth"] = c.excess / pixel_steps;
+  else
+    its["mean_difference_from_truth_failed"] = "the truth could not be had";
+  return its;
 }
 
 }  // namespace
 
 void measure_temporal(const Job& job, Subjects& subjects, const std::filesystem::path& folder, nlohmann::json& result) {
+  if (job.frames < 2) fail("flicker needs two frames, not {}", job.frames);
   const FrameChoice at_rest = subjects.all().front().frame;
+  const glm::dvec3 middle_ws = world_bounds(subjects.session().scene).center();
   std::vector<Changes> changes(subjects.all().size());
   for (Subject& s : subjects.all())
     if (s.works()) s.renderer->keep_geometry(true);
+  // The truth is the sweep's first configuration.
+  const Subject& truth = subjects.all().front();
   Progress progress(job.experiment + " " + job.scene.name, uint64_t(job.frames));
   for (int step = 0; step < job.frames; ++step) {
     Camera camera;
     std::vector<Light> lights;
-    stand(job, at_rest, step, camera, lights);
+    stand(job, at_rest, middle_ws, step, camera, lights);
     subjects.look(camera, lights);
-    // The truth is the sweep's first configuration.
     std::vector<float> truth_step;
     size_t i = 0;
     for (Subject& s : subjects.all()) {
       Changes& c = changes[i++];
       if (!s.works()) continue;
-      const std::vector<float> lit = light_seen(s);
-      s.timers.clear();
-      if (i == 1) {
-        truth_step.assign(lit.size(), 0.0f);
-        for (size_t k = 0; k < c.before.size(); ++k) truth_step[k] = lit[k] - c.before[k];
+      try {
+        const std::vector<float> lit = light_seen(s);
+        if (&s == &truth) truth_step = step_of(c, lit);
+        add_step(c, lit, truth_step);
+      } catch (const Error& e) {
+        s.failed = e.what();
       }
-      add_step(c, lit, truth_step.empty() ? nullptr : &truth_step);
+      s.timers.clear();
     }
     progress.advance();
   }
@@ -106,15 +142,12 @@ void measure_temporal(const Job& job, Subjects& subjects, const std::filesystem:
     const Changes& c = changes[i];
     nlohmann::json& its = result["configurations"][i++];
     if (!s.works()) continue;
-    const double pixel_steps = double(c.before.size()) * (job.frames - 1);
-    its["temporal"] = {{"flips", c.flips},
-                       {"flips_a_thousand_pixel_steps", 1e3 * double(c.flips) / pixel_steps},
-                       {"mean_change", c.change / pixel_steps},
-                       {"mean_difference_from_truth", c.excess / pixel_steps}};
-    const std::string name = fmt::format("images/temporal-{}-{}-{}.png", job.part, job.scene.name, i);
+    its["temporal"] = temporal_json(c, job.frames - 1, truth.works());
+    const std::string name = fmt::format("images/temporal-{}-{}-{}.png", job.part, file_word(job.scene.name), i);
     write_png(folder / name, heat_map(c.flips_a_pixel, s.frame.size.width_px, s.frame.size.height_px, 6.0f));
     files.push_back({{"file", name}, {"label", s.configuration.name}});
   }
+  if (files.empty()) return;
   result["pictures"] = {{"title", fmt::format("Flips a pixel, {} moving: {}", job.part, job.scene.name)},
                         {"caption", "From none (dark) to six and more (bright)."},
                         {"files", files},

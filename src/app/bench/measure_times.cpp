@@ -21,7 +21,7 @@ Subject* first_working(Subjects& subjects) {
   return nullptr;
 }
 
-/// What nine of ten pixels do not exceed: a scale that single pixels do not stretch.
+/// What nineteen of twenty pixels do not exceed: a scale that single pixels do not stretch.
 float scale_of(std::vector<float> values) {
   std::erase(values, 0.0f);
   if (values.empty()) return 1.0f;
@@ -34,7 +34,7 @@ nlohmann::json pictures_of(const Job& job, Subjects& subjects, Subject& s, const
   const Size size = s.frame.size;
   std::vector<nlohmann::json> files;
   const auto add = [&](const std::string& word, const std::string& label, const Image8& picture) {
-    const std::string name = fmt::format("images/{}-{}-{}.png", job.experiment, job.scene.name, word);
+    const std::string name = fmt::format("images/{}-{}-{}.png", job.experiment, file_word(job.scene.name), word);
     write_png(folder / name, picture);
     files.push_back({{"file", name}, {"label", label}});
   };
@@ -73,10 +73,15 @@ void measure_times(const Job& job, Subjects& subjects, const std::filesystem::pa
 
 void measure_animation(const Job& job, Subjects& subjects, const std::filesystem::path&, nlohmann::json& result) {
   const double fps = job.settings.value("fps", 30.0), first_s = job.settings.value("first_s", 0.0);
-  subjects.move_to(first_s);
-  subjects.round(false);
+  if (subjects.session().plays) {
+    subjects.move_to(first_s);
+    subjects.round(false);
+  } else {
+    for (Subject& s : subjects.all())
+      if (s.works()) s.failed = "the scene has no animation";
+  }
   Progress progress(job.experiment + " " + job.scene.name, uint64_t(job.frames));
-  for (int i = 0; i < job.frames; ++i) {
+  for (int i = 0; i < job.frames && subjects.session().plays; ++i) {
     subjects.move_to(first_s + i / fps);
     subjects.round(true);
     progress.advance();

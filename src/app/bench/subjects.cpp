@@ -109,8 +109,10 @@ nlohmann::json Subjects::results(bool counted) {
     nlohmann::json result = description(s);
     if (s.works()) try {
         result["stages"] = stages_json(s.timers);
-        result["frame_ms"] = median(s.frame_ms);
-        result["frame_samples"] = s.frame_ms;
+        if (!s.frame_ms.empty()) {
+          result["frame_ms"] = median(s.frame_ms);
+          result["frame_samples"] = s.frame_ms;
+        }
         if (counted) {
           result.update(masks_json(rendered(s)));
           result.update(memory_json(*s.renderer));

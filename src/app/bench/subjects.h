@@ -45,8 +45,8 @@ class Subjects {
   void look(const Camera& camera, const std::vector<Light>& lights);
 
   /// Of each configuration: `name`, `technique`, `preset`, `options` (all), `size`, `notes`, `stages` with samples,
-  /// `frame_ms`, `frame_samples`, and with `counted` what add_statistics() and memory_json() say, and `mask_hash`; or
-  /// `failed`.
+  /// `frame_ms`, `frame_samples` (both where frames were timed), and with `counted` what add_statistics() and
+  /// memory_json() say, and `mask_hash`; or `failed`.
   nlohmann::json results(bool counted);
 
  private:
