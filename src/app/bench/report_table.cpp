@@ -28,8 +28,9 @@ std::string header(const nlohmann::json& column) {
 
 std::string cell(const nlohmann::json& value) {
   if (value.is_string()) return value;
-  if (value.is_object()) return "n/a: " + value["reason"].get<std::string>();
-  return value.is_null() ? std::string() : json_text(value);
+  if (value.is_object()) return "n/a: " + value.at("reason").get<std::string>();
+  if (value.is_null()) throw std::logic_error("a cell without a value needs a reason");
+  return json_text(value);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ struct ReportColumn {
 class ReportTable {
  public:
   ReportTable(std::string id, std::string caption, std::vector<ReportColumn> columns);
-  /// A row: numbers, texts, or reason() where there is no number. As many as columns, or std::logic_error.
+  /// A row: numbers, texts, or no_value() where there is no number. As many as columns, or std::logic_error.
   void add(std::vector<nlohmann::json> cells);
   bool empty() const { return json_["rows"].empty(); }
   const nlohmann::json& json() const { return json_; }

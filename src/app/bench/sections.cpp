@@ -22,7 +22,7 @@ std::vector<const Measured*> Evidence::of_part(const std::string& part) const {
 const json* find_configuration(const Measured& m, const std::string& name) {
   if (!m.works() || !m.result.contains("configurations")) return nullptr;
   for (const json& c : m.result["configurations"])
-    if (c["name"] == name) return &c;
+    if (c.at("name") == name) return &c;
   return nullptr;
 }
 
@@ -42,11 +42,15 @@ json shadow_ms(const json& configuration) {
   return sum;
 }
 
+/// The value at a path "a/b", unless "a_failed" or "a/b_failed" beside it says why there is none.
 json at_path(const json& configuration, const std::string& path) {
   const json::json_pointer pointer("/" + path);
-  if (!configuration.contains(pointer) || configuration[pointer].is_null())
-    return no_value("not said by this technique or system");
-  return configuration[pointer];
+  for (const std::string& of : {path.substr(0, path.find('/')), path})
+    if (const json::json_pointer failed("/" + of + "_failed"); configuration.contains(failed))
+      return no_value(configuration[failed]);
+  if (configuration.contains(pointer) && !configuration[pointer].is_null()) return configuration[pointer];
+  return no_value(path.starts_with("averages/") ? "nothing to take the mean of"
+                                                : "not said by this technique or system");
 }
 
 }  // namespace
@@ -125,11 +129,24 @@ constexpr NamedSection sections[] = {
     {"figure9", figure9_section}, {"figure10", figure10_section}, {"ablations", ablations_section},
     {"memory", memory_section},   {"temporal", temporal_section}, {"peers", peers_section}};
 
+/// A logarithmic axis has no place for 0, which the tables show.
+void leave_out_zeros(json& plot) {
+  if (plot["y"]["scale"] != "log") return;
+  bool some = false;
+  for (json& series : plot["series"])
+    for (json& v : series["values"])
+      if (v.is_number() && !(v.get<double>() > 0.0)) v = nullptr, some = true;
+  if (some) plot["caption"] = "Zeros have no place on the logarithmic axis; the tables have them.";
+}
+
 /// What was measured how, and what was left out.
 void add_conditions(json& section, const Evidence& evidence, bool software) {
   std::set<std::string> sizes, frames, smaller;
-  size_t failed = 0, missing = 0;
+  size_t failed = 0, missing = 0, configurations = 0, refused = 0;
   for (const Measured* m : evidence.jobs) {
+    if (m->works())
+      for (const json& c : m->result.value("configurations", json::array()))
+        ++configurations, refused += c.contains("failed");
     sizes.insert(m->job.size);
     frames.insert(std::to_string(m->job.frames));
     if (m->job.scene.triangles != 0) smaller.insert(scene_label(*m));
@@ -143,7 +160,10 @@ void add_conditions(json& section, const Evidence& evidence, bool software) {
         fmt::format("Scenes with fewer triangles than their own: {}.", fmt::join(smaller, ", ")));
   if (failed > 0) section["notes"].push_back(fmt::format("{} of {} jobs failed.", failed, evidence.jobs.size()));
   if (missing > 0)
-    section["notes"].push_back(fmt::format("{} of {} jobs were not run.", missing, evidence.jobs.size()));
+    section["notes"].push_back(fmt::format("{} of {} jobs were not run until now.", missing, evidence.jobs.size()));
+  if (refused > 0)
+    section["notes"].push_back(
+        fmt::format("{} of {} configurations could not be measured: the tables say why.", refused, configurations));
   std::vector<std::string> named;
   for (const Measured* m : evidence.jobs)
     for (const Configuration& c : m->job.configurations) {
@@ -153,7 +173,10 @@ void add_conditions(json& section, const Evidence& evidence, bool software) {
           json::array({c.name, "`" + c.command_line() + (c.size.empty() ? "" : " --size " + c.size) + "`"}));
     }
   section["software"] = software;
-  for (json& plot : section["plots"]) plot["software"] = software;
+  for (json& plot : section["plots"]) {
+    plot["software"] = software;
+    leave_out_zeros(plot);
+  }
 }
 
 json facts(const json& made, const std::string& command, const std::string& extent) {

@@ -15,7 +15,8 @@ struct Evidence {
 };
 
 /// A configuration's number of a result: "stages/NAME" (median ms), "shadow_ms" (bounds, build, zcull and visibility),
-/// "frame_ms", or a path into its JSON such as "counts/nodes". Or no_value() with the reason.
+/// "frame_ms", or a path into its JSON such as "counts/nodes". Or no_value() with the reason: "a_failed" or
+/// "a/b_failed" beside the value a/b says it.
 nlohmann::json value(const Measured& m, const std::string& configuration, const std::string& what, double scale = 1.0);
 /// The configuration's JSON, or null.
 const nlohmann::json* find_configuration(const Measured& m, const std::string& name);
@@ -27,7 +28,7 @@ nlohmann::json plotted(const nlohmann::json& cell);
 nlohmann::json median_of(const std::vector<nlohmann::json>& cells);
 /// Its configurations' names, in the order of the sweep.
 std::vector<std::string> configuration_names(const std::vector<const Measured*>& jobs);
-/// "villa", or where it has another number of triangles than its own "villa (60,000 triangles)".
+/// "villa", or where it has another number of triangles than its own "villa (60 k triangles)".
 std::string scene_label(const Measured& m);
 /// An empty section: `id`, `title`, `text`, and the lists that sections fill.
 nlohmann::json new_section(const std::string& id, const std::string& title, std::vector<std::string> text);

@@ -174,11 +174,12 @@ json peers_section(const Evidence& e) {
     by_scene["x"]["values"].push_back(scene_label(*m));
     ours_by_scene.push_back(ours), rays_by_scene.push_back(rays), map_by_scene.push_back(its);
     if (its.is_number() && ours.is_number() && its <= ours)
-      section["notes"].push_back(fmt::format(
-          "{}: \"{}\" is nearer to the truth than 32 samples of izb ({:.3f} and {:.3f} %); the pictures show where. "
-          "Over flat pixels: {} and {} %.",
-          scene_label(*m), map, its.get<double>(), ours.get<double>(), percent_text(value(*m, map, "error/flat/mean")),
-          percent_text(role(*m, "ours", "error/flat/mean"))));
+      section["notes"].push_back(
+          fmt::format("{}: \"{}\" is {} the truth {} 32 samples of izb ({:.3f} and {:.3f} %); the pictures show where. "
+                      "Over flat pixels: {} and {} %.",
+                      scene_label(*m), map, its < ours ? "nearer to" : "as near to", its < ours ? "than" : "as",
+                      its.get<double>(), ours.get<double>(), percent_text(value(*m, map, "error/flat/mean")),
+                      percent_text(role(*m, "ours", "error/flat/mean"))));
   }
   by_scene["series"] = {series("izb, 32 samples", ours_by_scene), series("32 rays", rays_by_scene),
                         series("best map", map_by_scene)};

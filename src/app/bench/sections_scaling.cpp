@@ -67,7 +67,7 @@ void add_resolution(json& section, const std::vector<const Measured*>& jobs) {
       for (const std::string& size : sizes) values.push_back(value(*m, prefix + size, "frame_ms"));
       row.insert(row.end(), values.begin(), values.end());
       row.push_back(ratio(value(*m, prefix + "2160p", "frame_ms"), value(*m, prefix + "1080p", "frame_ms")));
-      row.push_back(samples == 32 && m->job.scene.name == "town"
+      row.push_back(samples == 32 && m->job.scene.procedural == "town"
                         ? json(2.0)
                         : no_value("the paper shows its Citadel at 32 samples"));
       table.add(std::move(row));
@@ -79,8 +79,9 @@ void add_resolution(json& section, const std::vector<const Measured*>& jobs) {
   section["plots"].push_back(std::move(plot));
 }
 
-double nearest_rank(std::vector<double> sorted, double share) {
-  return sorted[std::min(sorted.size() - 1, size_t(share * double(sorted.size())))];
+/// The least of the sorted values that so many percent of them do not exceed.
+double nearest_rank(const std::vector<double>& sorted, size_t percent) {
+  return sorted.at((percent * sorted.size() + 99) / 100 - 1);
 }
 
 void add_animation(json& section, const std::vector<const Measured*>& jobs) {
@@ -93,8 +94,9 @@ void add_animation(json& section, const std::vector<const Measured*>& jobs) {
                      {.name = "95 %", .unit = "ms"},
                      {.name = "worst", .unit = "ms"},
                      {.name = "worst / median", .digits = 2}});
+  int number = 0;
   for (const Measured* m : jobs) {
-    json plot = line_plot("figure8-animation-" + m->job.scene.name,
+    json plot = line_plot(fmt::format("figure8-animation-{}", ++number),
                           "Time of a frame along the path: " + scene_label(*m) + ", " + m->job.size, "frame", "",
                           "linear", json::array());
     for (int i = 0; i < m->job.frames; ++i) plot["x"]["values"].push_back(i);
@@ -105,11 +107,11 @@ void add_animation(json& section, const std::vector<const Measured*>& jobs) {
         table.add({scene_label(*m), c.name, m->job.frames, reason, reason, reason, reason, reason});
         continue;
       }
-      std::vector<double> ms = (*result)["frame_samples"];
+      std::vector<double> ms = result->at("frame_samples");
       plot["series"].push_back(series(c.name, std::vector<json>(ms.begin(), ms.end())));
       std::sort(ms.begin(), ms.end());
-      table.add({scene_label(*m), c.name, ms.size(), ms.front(), median(ms), nearest_rank(ms, 0.95), ms.back(),
-                 ms.back() / median(ms)});
+      table.add({scene_label(*m), c.name, ms.size(), ms.front(), median(ms), nearest_rank(ms, 95), ms.back(),
+                 ratio(ms.back(), median(ms))});
     }
     if (!plot["series"].empty()) section["plots"].push_back(std::move(plot));
   }

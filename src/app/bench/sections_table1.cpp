@@ -29,10 +29,10 @@ constexpr Column work[] = {{"fragments", "counts/fragments_after_zcull", "fragme
                            {"tests a fragment", "averages/tests_a_fragment", "tests_a_fragment"},
                            {"tests a receiver", "averages/tests_a_receiver", "tests_a_pixel"}};
 
-/// The paper's number for a scene, or why there is none.
-json papers(const json& table, const std::string& scene, const char* samples, const char* key) {
-  if (!table.contains(scene)) return no_value("the paper has no such scene");
-  return table[scene][samples][key];
+/// The paper's number for a scene of ours that stands for one of its, or why there is none.
+json papers(const json& table, const BenchScene& scene, const char* samples, const char* key) {
+  if (!table.contains(scene.procedural)) return no_value("the paper has no such scene");
+  return table[scene.procedural][samples][key];
 }
 
 /// Ours and theirs in turn. `work_columns`: millions and averages, else milliseconds.
@@ -51,7 +51,7 @@ ReportTable make_table(const Evidence& e, const std::string& id, const std::stri
     std::vector<json> row{scene_label(*m), m->works() ? m->result["scene"]["triangles"] : no_value(m->reason())};
     for (const Column& c : columns) {
       row.push_back(value(*m, configuration, c.ours, c.scale));
-      row.push_back(papers(paper, m->job.scene.name, samples, c.theirs));
+      row.push_back(papers(paper, m->job.scene, samples, c.theirs));
     }
     table.add(std::move(row));
   }
@@ -95,7 +95,7 @@ json tests_plot(const Evidence& e, const std::string& configuration) {
   for (const Measured* m : e.jobs) {
     plot["x"]["values"].push_back(scene_label(*m));
     ours.push_back(value(*m, configuration, "averages/tests_a_receiver"));
-    theirs.push_back(papers(e.paper["table1"], m->job.scene.name, "32", "tests_a_pixel"));
+    theirs.push_back(papers(e.paper["table1"], m->job.scene, "32", "tests_a_pixel"));
   }
   plot["series"].push_back(series("ours", std::move(ours)));
   plot["series"].push_back(series("paper", std::move(theirs), true));

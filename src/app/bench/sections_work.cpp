@@ -10,14 +10,6 @@ using nlohmann::json;
 
 namespace {
 
-/// What was measured only for this section, or why it was not.
-json special(const Measured& m, const std::string& configuration, const std::string& group, const std::string& key,
-             double scale = 1.0) {
-  const json* const c = find_configuration(m, configuration);
-  if (c && c->contains(group + "_failed")) return no_value((*c)[group + "_failed"]);
-  return value(m, configuration, group + "/" + key, scale);
-}
-
 json category_plot(const std::string& id, const std::string& title, const std::string& y, const std::string& unit,
                    const Evidence& e) {
   json plot{{"id", id},
@@ -59,7 +51,7 @@ json table2_section(const Evidence& e) {
   std::vector<json> ours, theirs;
   const std::string name = "32 samples";
   for (const Measured* m : e.jobs) {
-    const json tests = special(*m, name, "speed_of_light", "tests"), ms = special(*m, name, "speed_of_light", "ms");
+    const json tests = value(*m, name, "speed_of_light/tests"), ms = value(*m, name, "speed_of_light/ms");
     const json light = ratio(tests, ms, 1e-3);
     const json real = ratio(value(*m, name, "counts/visibility_tests"), value(*m, name, "stages/visibility"), 1e-3);
     std::vector<json> row{
@@ -67,8 +59,8 @@ json table2_section(const Evidence& e) {
         ratio(real, light, 100.0)};
     ours.push_back(row.back());
     const json& paper = e.paper["table2"];
-    if (paper.contains(m->job.scene.name)) {
-      const json& p = paper[m->job.scene.name];
+    if (paper.contains(m->job.scene.procedural)) {
+      const json& p = paper[m->job.scene.procedural];
       const double best = p["best_millions_a_ms"], most = p["speed_of_light_millions_a_ms"];
       row.insert(row.end(), {p["tests_millions"], p["speed_of_light_ms"], 1e3 * most, 1e3 * best, 100.0 * best / most});
       theirs.push_back(100.0 * best / most);
@@ -108,9 +100,9 @@ json figure10_section(const Evidence& e) {
   for (const Measured* m : e.jobs) {
     paper_setting.push_back(value(*m, "32 samples, as in the paper", "averages/tests_a_receiver"));
     defaults.push_back(value(*m, "32 samples, defaults", "averages/tests_a_receiver"));
-    beams.push_back(special(*m, "32 samples, defaults", "beams", "tests_a_receiver"));
+    beams.push_back(value(*m, "32 samples, defaults", "beams/tests_a_receiver"));
     table.add({scene_label(*m), paper_setting.back(), defaults.back(), beams.back(),
-               special(*m, "32 samples, defaults", "beams", "node_tests_a_receiver"),
+               value(*m, "32 samples, defaults", "beams/node_tests_a_receiver"),
                ratio(paper_setting.back(), beams.back()), ratio(defaults.back(), beams.back()), "0.3 to 2.6"});
   }
   plot["series"] = {series("izb, as in the paper", paper_setting), series("izb, defaults", defaults),
