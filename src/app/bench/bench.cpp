@@ -86,8 +86,9 @@ int run_bench(BenchOptions& o) {
   if (!o.request.size.empty()) parse_size(o.request.size);
   auto& wanted = o.request.experiments;
   if (std::find(wanted.begin(), wanted.end(), "all") != wanted.end()) wanted.clear();
-  const json sweeps = read_bench_data("sweeps.json"), paper = read_bench_data("paper.json");
-  const std::vector<Job> jobs = plan(sweeps, o.request, o.run.folder);
+  const json paper = read_bench_data("paper.json");
+  const std::vector<Job> jobs =
+      plan(read_bench_data("sweeps.json"), read_bench_data("views.json"), o.request, o.run.folder);
   if (o.list) {
     print_plan(jobs);
     return 0;

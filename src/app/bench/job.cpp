@@ -54,7 +54,7 @@ std::string file_word(const std::string& name) {
     word.erase(std::find_if(word.begin(), word.end(), [](unsigned char c) { return c >= 0x80; }), word.end());
   std::replace_if(
       word.begin(), word.end(), [&](char c) { return !stays(static_cast<unsigned char>(c)); }, '_');
-  if (word != name) word += "-" + sha256_hex(std::as_bytes(std::span(name))).substr(0, 8);
+  if (word != name || name.empty()) word += "-" + sha256_hex(std::as_bytes(std::span(name))).substr(0, 8);
   return word;
 }
 

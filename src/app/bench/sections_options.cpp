@@ -94,9 +94,9 @@ json memory_section(const Evidence& e) {
                     {{.name = "scene", .text = true},
                      {.name = "configuration", .text = true},
                      {.name = "picture", .text = true},
-                     {.name = "technique", .unit = "MB"},
-                     {.name = "G-buffer", .unit = "MB"},
-                     {.name = "scene", .unit = "MB"},
+                     {.name = "technique", .unit = "MB", .group = "held"},
+                     {.name = "G-buffer", .unit = "MB", .group = "held"},
+                     {.name = "scene", .unit = "MB", .group = "held"},
                      {.name = "process, at most", .unit = "MB"}});
   json plot{{"id", "memory-plot"},
             {"kind", "stacked"},

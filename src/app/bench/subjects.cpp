@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/subjects.h"
 
-#include <chrono>
-
 #include "app/results.h"
 #include "app/statistics.h"
 #include "base/error.h"
@@ -65,12 +63,15 @@ void Subjects::render(Subject& s, bool measured) {
   const auto start = std::chrono::steady_clock::now();
   s.renderer->render(s.frame.camera, s.frame.lights, s.timers);
   glFinish();
-  const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+  using Milliseconds = std::chrono::duration<double, std::milli>;
+  const Milliseconds elapsed = std::chrono::steady_clock::now() - start;
   s.timers.collect();
-  if (measured)
+  if (measured) {
     s.frame_ms.push_back(elapsed.count());
-  else
+    s.started_ms.push_back(Milliseconds(start - start_).count());
+  } else {
     s.timers.clear();
+  }
 }
 
 void Subjects::round(bool measured) {
@@ -112,6 +113,7 @@ nlohmann::json Subjects::results(bool counted) {
         if (!s.frame_ms.empty()) {
           result["frame_ms"] = median(s.frame_ms);
           result["frame_samples"] = s.frame_ms;
+          result["frame_started_ms"] = s.started_ms;
         }
         if (counted) {
           result.update(masks_json(rendered(s)));

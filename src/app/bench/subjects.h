@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The configurations of a job side by side: one scene in one context, a renderer for each.
 #pragma once
+#include <chrono>
 #include <list>
 #include <memory>
 #include <optional>
@@ -21,7 +22,8 @@ struct Subject {
   std::unique_ptr<Renderer> renderer;
   gpu::StageTimers timers;
   std::vector<double> frame_ms;
-  std::string failed;  ///< one sentence; empty: it works
+  std::vector<double> started_ms;  ///< when each began, since the subjects were there
+  std::string failed;              ///< one sentence; empty: it works
 
   bool works() const { return failed.empty(); }
 };
@@ -45,8 +47,8 @@ class Subjects {
   void look(const Camera& camera, const std::vector<Light>& lights);
 
   /// Of each configuration: `name`, `technique`, `preset`, `options` (all), `size`, `notes`, `stages` with samples,
-  /// `frame_ms`, `frame_samples` (both where frames were timed), and with `counted` what add_statistics() and
-  /// memory_json() say, and `mask_hash`; or `failed`.
+  /// `frame_ms`, `frame_samples`, `frame_started_ms` (all where frames were timed), and with `counted` what
+  /// add_statistics() and memory_json() say, and `mask_hash`; or `failed`.
   nlohmann::json results(bool counted);
 
  private:
@@ -55,6 +57,7 @@ class Subjects {
   Session session_;
   std::list<Subject> subjects_;
   size_t rounds_ = 0;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace izb::bench

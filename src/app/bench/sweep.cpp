@@ -73,10 +73,8 @@ void make_names_unique(std::vector<BenchScene>& scenes) {
 
 class Planner {
  public:
-  Planner(const SweepRequest& request, const fs::path& folder)
-      : request_(request),
-        folder_(folder.empty() ? folder : fs::absolute(folder)),
-        views_(read_bench_data("views.json")) {}
+  Planner(const json& views, const SweepRequest& request, const fs::path& folder)
+      : request_(request), folder_(folder.empty() ? folder : fs::absolute(folder)), views_(views) {}
 
   void add(std::vector<Job>& jobs, const std::string& experiment, const json& part) {
     const int triangles = value_for(part, "triangles", request_.extent, 0).get<int>();
@@ -198,7 +196,7 @@ class Planner {
 
   const SweepRequest& request_;
   fs::path folder_;
-  json views_;
+  const json& views_;
   std::map<std::string, SceneFile> files_;  ///< that are read already
 };
 
@@ -221,12 +219,12 @@ json read_bench_data(const std::string& name) {
   }
 }
 
-std::vector<Job> plan(const json& sweeps, const SweepRequest& request, const fs::path& folder) {
+std::vector<Job> plan(const json& sweeps, const json& views, const SweepRequest& request, const fs::path& folder) {
   const auto wanted = [&](const char* name) {
     const auto& list = request.experiments;
     return list.empty() || std::find(list.begin(), list.end(), name) != list.end();
   };
-  Planner planner(request, folder);
+  Planner planner(views, request, folder);
   std::vector<Job> jobs;
   for (const char* name : experiment_names)
     if (wanted(name))

@@ -30,10 +30,12 @@ nlohmann::json read_bench_data(const std::string& name);
 inline constexpr const char* experiment_names[] = {"table1",    "table2", "figure8",  "figure9", "figure10",
                                                    "ablations", "memory", "temporal", "peers"};
 
-/// The jobs of a request. Files of procedural scenes are named below `folder` and need not exist yet. The word "files"
-/// among a sweep's scenes stands for those of the folder in the environment variable IZB_SCENES. Of one experiment no
-/// two scenes have the same name. Throws izb::UsageError for an unknown scene and for a folder without any, izb::Error
-/// for a folder that cannot be read.
-std::vector<Job> plan(const nlohmann::json& sweeps, const SweepRequest& request, const std::filesystem::path& folder);
+/// The jobs of a request. `sweeps`: bench/sweeps.json; `views`: bench/views.json, whose viewpoints files of the same
+/// name get. Files of procedural scenes are named below `folder` and need not exist yet. The word "files" among a
+/// sweep's scenes stands for those of the folder in the environment variable IZB_SCENES. Of one experiment no two
+/// scenes have the same name. Throws izb::UsageError for an unknown scene and for a folder without any, izb::Error for
+/// a folder that cannot be read.
+std::vector<Job> plan(const nlohmann::json& sweeps, const nlohmann::json& views, const SweepRequest& request,
+                      const std::filesystem::path& folder);
 
 }  // namespace izb::bench
