@@ -28,7 +28,7 @@ struct BenchOptions {
   RunOptions run;
   std::string output;
   bool quick = false, complete = false, resume = false, list = false;
-  int time_limit_s = 600;
+  int time_limit_s = 1800;
   Arguments arguments;
 };
 

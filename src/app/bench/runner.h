@@ -23,7 +23,7 @@ struct RunOptions {
   std::filesystem::path folder;
   bool resume = false;
   bool alone = false;           ///< nobody else writes to the folder: what is half written there is left over
-  double time_limit_s = 600.0;  ///< a job
+  double time_limit_s = 1800.0;  ///< a job
 };
 
 /// Where a job's result is: FOLDER/runs/EXPERIMENT/[PART.]SCENE[.CONFIGURATION].json.

@@ -96,7 +96,9 @@ std::vector<std::string> configuration_names(const std::vector<const Measured*>&
 
 std::string scene_label(const Measured& m) {
   if (m.job.scene.triangles == 0) return m.job.scene.name;
-  return fmt::format("{} ({} k triangles)", m.job.scene.name, (m.job.scene.triangles + 500) / 1000);
+  const int triangles = m.job.scene.triangles;
+  if (triangles < 1'000'000) return fmt::format("{} ({} k triangles)", m.job.scene.name, (triangles + 500) / 1000);
+  return fmt::format("{} ({:.1f} M triangles)", m.job.scene.name, triangles * 1e-6);
 }
 
 json new_section(const std::string& id, const std::string& title, std::vector<std::string> text) {

@@ -33,7 +33,7 @@ json table2_section(const Evidence& e) {
                               "through, with its rasterisation, "
                               "its walks along the lists and its divergence. The pairs that single precision leaves "
                               "undecided are decided in double "
-                              "in both. Every time the stored tests gave the frame's mask, bit for bit."});
+                              "in both. Where the stored tests do not give the frame's mask, bit for bit, the row says so."});
   ReportTable table("table2", "Speed of light at 32 samples",
                     {{.name = "scene", .text = true},
                      {.name = "tests", .unit = "millions", .group = "ours"},
