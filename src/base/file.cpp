@@ -63,6 +63,16 @@ pid_t maker_of(const std::string& name) {
   return is_one && used == int(name.size()) && process > 0 ? process : 0;
 }
 
+/// One that has ended stays a zombie until somebody waits for it, for ever where nobody does.
+bool runs(pid_t process) {
+  if (kill(process, 0) != 0) return errno != ESRCH;
+  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(fmt::format("/proc/{}/stat", process).c_str(), "rb"));
+  char text[512] = {};
+  if (!file || std::fread(text, 1, sizeof text - 1, file.get()) == 0) return true;
+  const char* const after_name = std::strrchr(text, ')');  // the name may hold anything
+  return !after_name || std::strncmp(after_name, ") Z", 3) != 0;
+}
+
 /// Names that the signal handler may read at any moment: of fixed size and never freed.
 struct Slot {
   enum State { free, taken, ready };
@@ -179,7 +189,7 @@ void remove_stale_temporaries(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const pid_t maker = maker_of(at->path().filename().string());
-    if (maker != 0 && kill(maker, 0) != 0 && errno == ESRCH) unlink(at->path().c_str());
+    if (maker != 0 && !runs(maker)) unlink(at->path().c_str());
   }
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -170,6 +171,34 @@ TEST_F(Files, SymbolicLinksAreFollowed) {
   izb::write_file_atomically(folder / "link", std::string_view("new"));
   EXPECT_TRUE(fs::is_symlink(folder / "link"));
   EXPECT_EQ(izb::read_text_file(folder / "a"), "new");
+}
+
+TEST_F(Files, WhatKilledProcessesLeftCanBeRemoved) {
+  // One has ended and is not waited for yet, another runs, a third is gone.
+  const auto start = [](bool ends) {
+    const pid_t child = fork();
+    if (child == 0) {
+      if (!ends) pause();
+      _exit(0);
+    }
+    return child;
+  };
+  const pid_t zombie = start(true), running = start(false), gone = start(true);
+  waitpid(gone, nullptr, 0);
+  siginfo_t ended;
+  waitid(P_PID, static_cast<id_t>(zombie), &ended, WEXITED | WNOWAIT);
+  const auto name_of = [](pid_t process) { return ".izb-" + std::to_string(process) + "-0.tmp"; };
+  std::set<std::string> stay{
+      "a", ".izb-x-0.tmp", ".izb-0-0.tmp", name_of(gone) + "x", name_of(running), name_of(getpid())};
+  for (const std::string& name : stay) izb::write_file_atomically(folder / name, std::string_view("x"));
+  for (const pid_t process : {zombie, gone})
+    izb::write_file_atomically(folder / name_of(process), std::string_view("x"));
+  izb::remove_stale_temporaries(folder);
+  EXPECT_EQ(names(), stay);
+  kill(running, SIGKILL);
+  waitpid(running, nullptr, 0);
+  waitpid(zombie, nullptr, 0);
+  izb::remove_stale_temporaries(folder / "nonesuch");
 }
 
 TEST_F(Files, ANameWithoutAFolderIsInTheCurrentOne) {
