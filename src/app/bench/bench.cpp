@@ -61,8 +61,9 @@ void write_reports(const fs::path& folder, const json& document) {
 
 void print_plan(const std::vector<Job>& jobs) {
   for (const Job& job : jobs) {
-    fmt::print("{}{}{}: {}, {}, {} frames, {} configurations\n", job.experiment, job.part.empty() ? "" : " ", job.part,
-               job.scene.name, job.size, job.frames, job.configurations.size());
+    fmt::print("{}{}{}: {}, {}, {} frame{}, {} configuration{}\n", job.experiment, job.part.empty() ? "" : " ",
+               job.part, job.scene.name, job.size, job.frames, job.frames == 1 ? "" : "s", job.configurations.size(),
+               job.configurations.size() == 1 ? "" : "s");
     for (const Configuration& c : job.configurations)
       fmt::print("  {}: {}{}\n", c.name, c.command_line(), c.size.empty() ? "" : " --size " + c.size);
   }
