@@ -217,10 +217,6 @@ class Soak {
 
   double bytes_at_home() {
     go_home();
-    if (const char* e = getenv("SOAK_DUMP"))
-      (void)!system(
-          (std::string("cat /proc/$(pgrep -f 'izb view'|head -1)/smaps > ") + e + "." + std::to_string(++dump_))
-              .c_str());
     doing("memory");
     double bytes = 0.0;
     viewer_->wait_for("memory", [&, n = 0](const json& line) mutable {
@@ -248,7 +244,6 @@ class Soak {
   std::unique_ptr<Viewer> viewer_;
   std::deque<std::string> last_inputs_;
   int count_ = 0;
-  int dump_ = 0;
 };
 
 }  // namespace
