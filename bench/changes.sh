@@ -10,7 +10,7 @@ usage: bench/changes.sh A B
 
 A and B are folders that `izb bench` wrote, or two of their tables (CSV). For each table that both have it prints every
 number that differs, the largest change first: what it was in A, what it is in B, and by how many percent of A it is more
-or less. Rows are matched by their text columns; where these do not tell the rows apart, by the numbers beside them, too.
+or less, or where the numbers are changes in percent themselves (some are below 0) by how many points. Rows are matched by their text columns; where these do not tell the rows apart, by the numbers beside them, too.
 Texts, rows, columns and tables that only one has are said, and so is what differs in the conditions: machine, driver,
 program, extent and options, as report.json has them. The paper's own numbers are left out.
 
@@ -116,6 +116,13 @@ changes() {
         }
       return 1
     }
+    # Percents below 0 are changes themselves, which have no share of one another: points tell them apart.
+    function is_change(name,   which, row) {
+      if (name !~ / \(%\)$/) return 0
+      for (which = 1; which <= 2; ++which)
+        for (row = 1; row <= rows[which]; ++row) if (cells[which, row, place[which, name]] ~ /^-/) return 1
+      return 0
+    }
     function key_of(which, row,   i, key) {
       key = ""
       for (i = 1; i <= keys; ++i) key = key (i > 1 ? ", " : "") cells[which, row, place[which, key_columns[i]]]
@@ -160,6 +167,7 @@ changes() {
         if (!((2, name) in place)) { gone = join(gone, name); continue }
         common[++commons] = name
         numeric[name] = numbers_in(name)
+        changes_itself[name] = is_change(name)
       }
       for (i = 1; i <= columns[2]; ++i) if (!((1, names[2, i]) in place)) come = join(come, names[2, i])
       # The texts before the first number name the row; those behind it are of what was found.
@@ -179,7 +187,11 @@ changes() {
           size = 1e300; change = "changed"
           if (numeric[name] && is_number(a) && is_number(b)) {
             if (a + 0 == b + 0) { ++same; continue }
-            if (a + 0 == 0) change = "was 0"
+            if (changes_itself[name]) {
+              size = b - a
+              change = sprintf("%+.1f points", size)
+              if (size < 0) size = -size
+            } else if (a + 0 == 0) change = "was 0"
             else {
               size = 100 * (b - a) / (a < 0 ? -a : a)
               change = sprintf("%+.1f %%", size)

@@ -45,6 +45,15 @@ TEST_F(Changes, OfNumbersAreInPercentTheLargestFirst) {
                 "\n2 values are the same.\n");
 }
 
+TEST_F(Changes, OfPercentsBelowZeroAreInPoints) {
+  EXPECT_EQ(of("option,time (%),error (%)\na,-0.5,4\nb,10,1\n", "option,time (%),error (%)\na,1.5,2\nb,7,1\n"),
+            head +
+                "| a | error (%) | 4 | 2 | -50.0 % |\n"
+                "| b | time (%) | 10 | 7 | -3.0 points |\n"
+                "| a | time (%) | -0.5 | 1.5 | +2.0 points |\n"
+                "\n1 value is the same.\n");
+}
+
 TEST_F(Changes, ReadQuotedCells) {
   EXPECT_EQ(of("\"a, \"\"b\"\"\nc\",n\r\n\"x|\ny\",1\r\n", "\"a, \"\"b\"\"\nc\",n\n\"x|\ny\",2"),
             head + "| x\\| y | n | 1 | 2 | +100.0 % |\n");
