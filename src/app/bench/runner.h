@@ -22,7 +22,7 @@ struct Measured {
 struct RunOptions {
   std::filesystem::path folder;
   bool resume = false;
-  bool alone = false;           ///< nobody else writes to the folder: what is half written there is left over
+  bool alone = false;            ///< nobody else writes to the folder: what is half written there is left over
   double time_limit_s = 1800.0;  ///< a job
 };
 

@@ -26,14 +26,15 @@ json category_plot(const std::string& id, const std::string& title, const std::s
 }  // namespace
 
 json table2_section(const Evidence& e) {
-  json section = new_section("table2", "Table 2: speed of light",
-                             {"A frame's tests are stored, then a compute pass makes them all, one an invocation, with "
-                              "nothing to find out: what "
-                              "the tests alone take. Beside it, how many tests a millisecond the stage visibility gets "
-                              "through, with its rasterisation, "
-                              "its walks along the lists and its divergence. The pairs that single precision leaves "
-                              "undecided are decided in double "
-                              "in both. Where the stored tests do not give the frame's mask, bit for bit, the row says so."});
+  json section =
+      new_section("table2", "Table 2: speed of light",
+                  {"A frame's tests are stored, then a compute pass makes them all, one an invocation, with "
+                   "nothing to find out: what "
+                   "the tests alone take. Beside it, how many tests a millisecond the stage visibility gets "
+                   "through, with its rasterisation, "
+                   "its walks along the lists and its divergence. The pairs that single precision leaves "
+                   "undecided are decided in double "
+                   "in both. Where the stored tests do not give the frame's mask, bit for bit, the row says so."});
   ReportTable table("table2", "Speed of light at 32 samples",
                     {{.name = "scene", .text = true},
                      {.name = "tests", .unit = "millions", .group = "ours"},

@@ -209,8 +209,9 @@ json parts_of(const json& experiment) {
 json read_bench_data(const std::string& name) {
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  fs::path found = program / "../share/izb" / name;
-  if (const fs::path source = program / "../../bench" / name; fs::exists(source, ignored)) found = source;
+  const fs::path installed = program / "../share/izb" / name, source = program / "../../bench" / name;
+  // A program may be installed below a source tree: its own file counts.
+  const fs::path found = !fs::exists(installed, ignored) && fs::exists(source, ignored) ? source : installed;
   const std::string text = read_text_file(found);
   try {
     return json::parse(text);
