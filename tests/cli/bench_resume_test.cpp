@@ -182,6 +182,16 @@ TEST_F(BenchResume, AJobThatIsKilledIsARowThatSaysSo) {
   expect_whole();
 }
 
+TEST_F(BenchResume, AJobDiesWithTheProcessThatStartedIt) {
+  json sweeps = quick_sweeps();
+  sweeps["memory"]["frames"] = 1000000;  // longer than anybody waits
+  set_sweeps(sweeps);
+  Started run(words(), folder / "log");
+  ASSERT_TRUE(eventually([&] { return !processes_with({"bench-job", out}).empty(); }));
+  run.end(SIGKILL);
+  EXPECT_TRUE(nothing_runs());
+}
+
 TEST_F(BenchResume, AJobThatTakesTooLongIsARowThatSaysSo) {
   json sweeps = quick_sweeps();
   sweeps["memory"]["configurations"].erase(1);
