@@ -140,7 +140,8 @@ TEST_F(Picture, TheSplitsBarMoves) {
   split_32_and_1();
   const Image8 before = viewer->still_capture();
   viewer->input().drag(centre, {120, 150}, Button::left, 20);
-  // Between the bar's places the other side is seen now; away from them nothing changed, once what a drag shows is gone.
+  // Between the bar's places the other side is seen now; away from them nothing changed, once what a drag shows is
+  // gone.
   constexpr int margin = 12;
   Image8 after = viewer->still_capture();
   wait_until(15.0, [&] {
