@@ -112,6 +112,24 @@ json new_section(const std::string& id, const std::string& title, std::vector<st
           {"images", json::array()}};
 }
 
+json new_plot(const std::string& id, const char* kind, const std::string& title, const PlotAxis& x, const PlotAxis& y,
+              json values) {
+  const auto axis = [](const PlotAxis& a) {
+    json its{{"label", a.label}, {"scale", a.scale}};
+    if (!a.unit.empty()) its["unit"] = a.unit;
+    return its;
+  };
+  json plot{{"id", id}, {"kind", kind}, {"title", title}, {"x", axis(x)}, {"y", axis(y)}, {"series", json::array()}};
+  plot["x"]["values"] = std::move(values);
+  return plot;
+}
+
+json scene_labels(const std::vector<const Measured*>& jobs) {
+  json labels = json::array();
+  for (const Measured* m : jobs) labels.push_back(scene_label(*m));
+  return labels;
+}
+
 json series(const std::string& name, std::vector<json> values, bool paper) {
   for (json& v : values) v = plotted(v);
   return {{"name", name}, {"values", std::move(values)}, {"source", paper ? "paper" : "measured"}};

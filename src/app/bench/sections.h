@@ -32,6 +32,14 @@ std::vector<std::string> configuration_names(const std::vector<const Measured*>&
 std::string scene_label(const Measured& m);
 /// An empty section: `id`, `title`, `text`, and the lists that sections fill.
 nlohmann::json new_section(const std::string& id, const std::string& title, std::vector<std::string> text);
+struct PlotAxis {
+  std::string label, unit = {}, scale = "linear";
+};
+/// A plot without series; its x values are `values`, or to be added.
+nlohmann::json new_plot(const std::string& id, const char* kind, const std::string& title, const PlotAxis& x,
+                        const PlotAxis& y, nlohmann::json values = nlohmann::json::array());
+/// Of each job its scene_label().
+nlohmann::json scene_labels(const std::vector<const Measured*>& jobs);
 /// {"name", "values", "source"}.
 nlohmann::json series(const std::string& name, std::vector<nlohmann::json> values, bool paper = false);
 

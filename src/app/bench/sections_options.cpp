@@ -41,23 +41,19 @@ std::string papers_claim(const Evidence& e, const std::string& name) {
 }  // namespace
 
 json ablations_section(const Evidence& e) {
-  json section = new_section("ablations", "Section 6: every option alone",
-                             {"Each option otherwise than by default, on the same frames, in percent of what the "
-                              "defaults take: time of the shadow "
-                              "stages (bounds to visibility), and counts. Below 0 is less. Where an option is on by "
-                              "default, the paper's claim is "
-                              "read the other way round."});
+  json section =
+      new_section("ablations", "Section 6: every option alone",
+                  {"Each option otherwise than by default, on the same frames, in percent of what the defaults take: "
+                   "time of the shadow stages (bounds to visibility), and counts. Below 0 is less. Where an option is "
+                   "on by default, the paper's claim is read the other way round."});
   std::vector<ReportColumn> header{{.name = "option", .text = true}, {.name = "claim", .paper = true, .text = true}};
   for (const Measured* m : e.jobs) header.push_back({.name = scene_label(*m), .unit = "%", .group = "time"});
   for (const char* name : {"time", "fragments", "tests", "nodes"})
     header.push_back({.name = name, .unit = "%", .group = "median of the scenes"});
   ReportTable table("ablations", "Change against the defaults", header);
-  json plot{{"id", "ablations-time"},
-            {"kind", "bars"},
-            {"title", "Time of the shadow stages against the defaults: median and extremes of the scenes"},
-            {"x", {{"label", "option"}, {"scale", "category"}, {"values", json::array()}}},
-            {"y", {{"label", "time"}, {"unit", "%"}, {"scale", "linear"}}},
-            {"series", json::array()}};
+  json plot = new_plot("ablations-time", "bars",
+                       "Time of the shadow stages against the defaults: median and extremes of the scenes",
+                       {"option", "", "category"}, {"time", "%"});
   std::vector<json> middle, low, high;
   for (const std::string& name : configuration_names(e.jobs)) {
     if (name == "defaults") continue;
@@ -83,12 +79,11 @@ json ablations_section(const Evidence& e) {
 }
 
 json memory_section(const Evidence& e) {
-  json section = new_section("memory", "Memory",
-                             {"What each technique holds after a frame, by group: its own structures and the mask, the "
-                              "G-buffer with the picture, "
-                              "the scene; and the most that the process held, which on a software renderer contains "
-                              "all of it, the scene's copy for "
-                              "the CPU, and the driver. Each in a process of its own."});
+  json section =
+      new_section("memory", "Memory",
+                  {"What each technique holds after a frame, by group: its own structures and the mask, the G-buffer "
+                   "with the picture, the scene; and the most that the process held, which on a software renderer "
+                   "contains all of it, the scene's copy for the CPU, and the driver. Each in a process of its own."});
   const char* groups[] = {"technique", "gbuffer", "scene"};
   ReportTable table("memory", "Bytes after a frame",
                     {{.name = "scene", .text = true},
@@ -98,12 +93,8 @@ json memory_section(const Evidence& e) {
                      {.name = "G-buffer", .unit = "MB", .group = "held"},
                      {.name = "scene", .unit = "MB", .group = "held"},
                      {.name = "process, at most", .unit = "MB"}});
-  json plot{{"id", "memory-plot"},
-            {"kind", "stacked"},
-            {"title", "Memory by configuration: " + (e.jobs.empty() ? std::string() : scene_label(*e.jobs.front()))},
-            {"x", {{"label", "configuration"}, {"scale", "category"}, {"values", json::array()}}},
-            {"y", {{"label", "memory"}, {"unit", "MB"}, {"scale", "linear"}}},
-            {"series", json::array()}};
+  json plot = new_plot("memory-plot", "stacked", "Memory by configuration: " + scene_label(*e.jobs.front()),
+                       {"configuration", "", "category"}, {"memory", "MB"});
   std::vector<json> values[3];
   for (const Measured* m : e.jobs) {
     const Configuration& c = m->job.configurations.at(0);

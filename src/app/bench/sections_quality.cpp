@@ -12,18 +12,6 @@ using nlohmann::json;
 
 namespace {
 
-json bars(const std::string& id, const std::string& title, const std::string& y, const std::string& unit,
-          const std::vector<std::string>& names) {
-  json plot{{"id", id},
-            {"kind", "bars"},
-            {"title", title},
-            {"x", {{"label", "technique"}, {"scale", "category"}, {"values", names}}},
-            {"y", {{"label", y}, {"scale", "linear"}}},
-            {"series", json::array()}};
-  if (!unit.empty()) plot["y"]["unit"] = unit;
-  return plot;
-}
-
 void add_pictures(json& section, const Measured& m) {
   if (!m.works() || !m.result.contains("pictures")) return;
   const json& pictures = m.result["pictures"];
@@ -59,15 +47,13 @@ std::string best_map(const Measured& m, const std::string& pixels = "inner") {
 }  // namespace
 
 json temporal_section(const Evidence& e) {
-  json section = new_section("temporal", "Flicker under motion",
-                             {"The camera's grid of pixels moves by a fraction of a pixel a step, or the light turns "
-                              "by a fraction of a degree. A "
-                              "flip is a pixel that goes from mostly lit to mostly dark or back. The change is that of "
-                              "the share of light a pixel, on "
-                              "the mean over pixels and steps. What moves in truth, by rays through many points of "
-                              "each pixel, is the first row: less "
-                              "change than that smears, more flickers, and the last column says how far each pixel's "
-                              "change is from the true one."});
+  json section =
+      new_section("temporal", "Flicker under motion",
+                  {"The camera's grid of pixels moves by a fraction of a pixel a step, or the light turns by a "
+                   "fraction of a degree. A flip is a pixel that goes from mostly lit to mostly dark or back. The "
+                   "change is that of the share of light a pixel, on the mean over pixels and steps. What moves in "
+                   "truth, by rays through many points of each pixel, is the first row: less change than that smears, "
+                   "more flickers, and the last column says how far each pixel's change is from the true one."});
   for (const std::string part : {"camera", "light"}) {
     const std::vector<const Measured*> jobs = e.of_part(part);
     if (jobs.empty()) continue;
@@ -78,9 +64,9 @@ json temporal_section(const Evidence& e) {
                        {.name = "change", .unit = "%", .digits = 3},
                        {.name = "difference from the true change", .unit = "%", .digits = 3}});
     const std::vector<std::string> names = configuration_names(jobs);
-    json plot =
-        bars("temporal-" + part + "-plot", "The " + part + " moves: how far a pixel's change is from the true one",
-             "difference from the true change", "%", names);
+    json plot = new_plot("temporal-" + part + "-plot", "bars",
+                         "The " + part + " moves: how far a pixel's change is from the true one",
+                         {"technique", "", "category"}, {"difference from the true change", "%"}, names);
     for (const Measured* m : jobs) {
       std::vector<json> values;
       for (const std::string& name : names) {
@@ -98,22 +84,18 @@ json temporal_section(const Evidence& e) {
 }
 
 json peers_section(const Evidence& e) {
-  json section = new_section(
-      "peers", "Peers against the truth",
-      {"Every technique on the same frames, judged by the same truth: rays from many points of each pixel to the "
-       "light. The "
-       "error is of the share of light in a pixel, |technique - truth|, on the mean over the pixels whose every ray "
-       "meets a surface that "
-       "could be lit, so that it is of shadow alone; in the tables of the scenes also over all pixels that see a "
-       "surface. Leaks are the part "
-       "that is too light, false shadow the part that is too dark. FLIP compares the shaded pictures with the truth's.",
-       "32 samples of izb and 32 rays stand at the same points, on the plane of what the pixel's centre sees; the "
-       "truth sees all of the "
-       "pixel. So neither can be nearer to it than that model, and what tells them apart is izb's table and its "
-       "insertion. Flat pixels "
-       "are those whose neighbours all lie on their plane, where the model holds: there no map should come near. "
-       "Elsewhere samples of the "
-       "plane may lie inside of what else is in the pixel, and be dark; a map's bias forgives that."});
+  json section =
+      new_section("peers", "Peers against the truth",
+                  {"Every technique on the same frames, judged by the same truth: rays from many points of each pixel "
+                   "to the light. The error is of the share of light in a pixel, |technique - truth|, on the mean over "
+                   "the pixels whose every ray meets a surface that could be lit, so that it is of shadow alone; in "
+                   "the tables of the scenes also over all pixels that see a surface. Leaks are the part that is too "
+                   "light, false shadow the part that is too dark. FLIP compares the shaded pictures with the truth's.",
+                   "32 samples of izb and 32 rays stand at the same points, on the plane of what the pixel's centre "
+                   "sees; the truth sees all of the pixel. So neither can be nearer to it than that model, and what "
+                   "tells them apart is izb's table and its insertion. Flat pixels are those whose neighbours all lie "
+                   "on their plane, where the model holds: there no map should come near. Elsewhere samples of the "
+                   "plane may lie inside of what else is in the pixel, and be dark; a map's bias forgives that."});
   const std::vector<std::string> names = configuration_names(e.jobs);
   ReportTable summary("peers", "Median over the scenes",
                       {{.name = "technique", .text = true},
@@ -124,7 +106,8 @@ json peers_section(const Evidence& e) {
                        {.name = "pixels wrong by more than 1/8", .unit = "%", .digits = 2},
                        {.name = "FLIP", .digits = 4},
                        {.name = "shadow stages", .unit = "ms"}});
-  json plot = bars("peers-error", "Error of the share of light, median of the scenes", "error", "%", names);
+  json plot = new_plot("peers-error", "bars", "Error of the share of light, median of the scenes",
+                       {"technique", "", "category"}, {"error", "%"}, names);
   std::vector<json> errors;
   for (const std::string& name : names) {
     const auto over_scenes = [&](const std::string& what, double scale) {
@@ -154,12 +137,8 @@ json peers_section(const Evidence& e) {
                         {.name = "the best map there", .unit = "%", .digits = 3, .group = "error, flat pixels"},
                         {.name = "bits unlike those of the rays", .unit = "%", .digits = 3},
                         {.name = "best map / izb", .digits = 1}});
-  json by_scene{{"id", "peers-scenes"},
-                {"kind", "bars"},
-                {"title", "Error of the share of light by scene"},
-                {"x", {{"label", "scene"}, {"scale", "category"}, {"values", json::array()}}},
-                {"y", {{"label", "error"}, {"unit", "%"}, {"scale", "linear"}}},
-                {"series", json::array()}};
+  json by_scene = new_plot("peers-scenes", "bars", "Error of the share of light by scene", {"scene", "", "category"},
+                           {"error", "%"}, scene_labels(e.jobs));
   std::vector<json> ours_by_scene, rays_by_scene, map_by_scene;
   for (const Measured* m : e.jobs) {
     const std::string map = best_map(*m);
@@ -171,7 +150,6 @@ json peers_section(const Evidence& e) {
                   role(*m, "ours", "error/flat/mean", 100.0), role(*m, "rays", "error/flat/mean", 100.0),
                   map.empty() ? its : value(*m, best_map(*m, "flat"), "error/flat/mean", 100.0),
                   role(*m, "ours", "against_rays/differing_percent"), ratio(its, ours)});
-    by_scene["x"]["values"].push_back(scene_label(*m));
     ours_by_scene.push_back(ours), rays_by_scene.push_back(rays), map_by_scene.push_back(its);
     if (its.is_number() && ours.is_number() && its <= ours)
       section["notes"].push_back(

@@ -23,26 +23,11 @@ std::vector<std::string> places(const std::vector<const Measured*>& jobs, const 
 
 const std::string of_32 = "32 samples, ", of_1 = "1 sample, ";
 
-json line_plot(const std::string& id, const std::string& title, const std::string& x_label, const std::string& unit,
-               const char* scale, json x) {
-  json plot{{"id", id},
-            {"kind", "line"},
-            {"title", title},
-            {"x", {{"label", x_label}, {"scale", scale}, {"values", std::move(x)}}},
-            {"y", {{"label", "time"}, {"unit", "ms"}, {"scale", "linear"}}},
-            {"series", json::array()}};
-  if (!unit.empty()) plot["x"]["unit"] = unit;
-  return plot;
-}
-
 /// The paper's left half: one scene's stages over the resolution.
 json stages_over_size(const Measured& m, const std::vector<std::string>& sizes) {
-  json plot{{"id", "figure8-stages"},
-            {"kind", "stacked"},
-            {"title", "Stages over the picture's resolution: " + scene_label(m) + ", 32 samples"},
-            {"x", {{"label", "resolution"}, {"scale", "category"}, {"values", sizes}}},
-            {"y", {{"label", "time"}, {"unit", "ms"}, {"scale", "linear"}}},
-            {"series", json::array()}};
+  json plot =
+      new_plot("figure8-stages", "stacked", "Stages over the picture's resolution: " + scene_label(m) + ", 32 samples",
+               {"resolution", "", "category"}, {"time", "ms"}, sizes);
   for (const char* stage : {"gbuffer", "bounds", "build", "zcull", "visibility", "shade"}) {
     std::vector<json> values;
     for (const std::string& size : sizes) values.push_back(value(m, of_32 + size, std::string("stages/") + stage));
@@ -59,8 +44,8 @@ void add_resolution(json& section, const std::vector<const Measured*>& jobs) {
   header.push_back({.name = "2160p / 1080p", .digits = 2});
   header.push_back({.name = "2160p / 1080p", .digits = 1, .paper = true});
   ReportTable table("figure8-resolution", "Time of a frame over the picture's resolution", header);
-  json plot = line_plot("figure8-frames", "Time of a frame over the picture's resolution", "resolution", "", "category",
-                        json(sizes));
+  json plot = new_plot("figure8-frames", "line", "Time of a frame over the picture's resolution",
+                       {"resolution", "", "category"}, {"time", "ms"}, sizes);
   for (const Measured* m : jobs)
     for (const auto& [prefix, samples] : {std::pair{of_32, 32}, std::pair{of_1, 1}}) {
       std::vector<json> row{scene_label(*m), samples}, values;
@@ -96,9 +81,9 @@ void add_animation(json& section, const std::vector<const Measured*>& jobs) {
                      {.name = "worst / median", .digits = 2}});
   int number = 0;
   for (const Measured* m : jobs) {
-    json plot = line_plot(fmt::format("figure8-animation-{}", ++number),
-                          "Time of a frame along the path: " + scene_label(*m) + ", " + m->job.size, "frame", "",
-                          "linear", json::array());
+    json plot =
+        new_plot(fmt::format("figure8-animation-{}", ++number), "line",
+                 "Time of a frame along the path: " + scene_label(*m) + ", " + m->job.size, {"frame"}, {"time", "ms"});
     for (int i = 0; i < m->job.frames; ++i) plot["x"]["values"].push_back(i);
     for (const Configuration& c : m->job.configurations) {
       const json* const result = find_configuration(*m, c.name);
@@ -121,24 +106,22 @@ void add_animation(json& section, const std::vector<const Measured*>& jobs) {
 }  // namespace
 
 json figure8_section(const Evidence& e) {
-  json section = new_section("figure8", "Figure 8: time over resolution and over an animation",
-                             {"The paper found that four times the pixels, from 1080p to 2160p, take about twice the "
-                              "time, and laid it to node "
-                              "removal, which spares the longer lists their shadowed nodes (its section 7).",
-                              "The animation is the scene's own camera path. The paper's has 3600 frames; where ours "
-                              "has fewer, they are spread "
-                              "over the same path."});
+  json section =
+      new_section("figure8", "Figure 8: time over resolution and over an animation",
+                  {"The paper found that four times the pixels, from 1080p to 2160p, take about twice the time, and "
+                   "laid it to node removal, which spares the longer lists their shadowed nodes (its section 7).",
+                   "The animation is the scene's own camera path. The paper's has 3600 frames; where ours has fewer, "
+                   "they are spread over the same path."});
   add_resolution(section, e.of_part("resolution"));
   add_animation(section, e.of_part("animation"));
   return section;
 }
 
 json figure9_section(const Evidence& e) {
-  json section = new_section(
-      "figure9", "Figure 9: time over the light-space grid's resolution",
-      {"Time of the stage visibility alone, with four cascades, as in the paper: finer grids have shorter lists and "
-       "more "
-       "fragments. It found the best between 1400 and 2500 texels, and that one sample does not mind finer ones."});
+  json section = new_section("figure9", "Figure 9: time over the light-space grid's resolution",
+                             {"Time of the stage visibility alone, with four cascades, as in the paper: finer grids "
+                              "have shorter lists and more fragments. It found the best between 1400 and 2500 texels, "
+                              "and that one sample does not mind finer ones."});
   std::vector<ReportColumn> header{{.name = "scene", .text = true}, {.name = "samples", .digits = 0}};
   const std::vector<std::string> grids = places(e.jobs, of_32);
   for (const std::string& grid : grids) header.push_back({.name = grid, .unit = "ms", .group = "visibility, grid of"});
@@ -148,9 +131,9 @@ json figure9_section(const Evidence& e) {
   json x = json::array();
   for (const std::string& grid : grids) x.push_back(std::stoi(grid));
   for (const auto& [prefix, samples] : {std::pair{of_32, 32}, std::pair{of_1, 1}}) {
-    json plot =
-        line_plot(fmt::format("figure9-{}", samples),
-                  fmt::format("{} sample{} a pixel", samples, samples == 1 ? "" : "s"), "grid", "texels", "log", x);
+    json plot = new_plot(fmt::format("figure9-{}", samples), "line",
+                         fmt::format("{} sample{} a pixel", samples, samples == 1 ? "" : "s"),
+                         {"grid", "texels", "log"}, {"time", "ms"}, x);
     for (const Measured* m : e.jobs) {
       std::vector<json> row{scene_label(*m), samples}, values;
       json best = no_value("no grid has a time");

@@ -68,13 +68,8 @@ ReportTable make_table(const Evidence& e, const std::string& id, const std::stri
 }
 
 json stage_plot(const Evidence& e, const std::string& configuration) {
-  json plot{{"id", "table1-stages"},
-            {"kind", "stacked"},
-            {"title", "Where a frame's time goes: " + configuration},
-            {"x", {{"label", "scene"}, {"scale", "category"}, {"values", json::array()}}},
-            {"y", {{"label", "time"}, {"unit", "ms"}, {"scale", "linear"}}},
-            {"series", json::array()}};
-  for (const Measured* m : e.jobs) plot["x"]["values"].push_back(scene_label(*m));
+  json plot = new_plot("table1-stages", "stacked", "Where a frame's time goes: " + configuration,
+                       {"scene", "", "category"}, {"time", "ms"}, scene_labels(e.jobs));
   for (const Column& c : times) {
     if (std::string(c.label) == "frame") continue;
     std::vector<json> values;
@@ -85,15 +80,10 @@ json stage_plot(const Evidence& e, const std::string& configuration) {
 }
 
 json tests_plot(const Evidence& e, const std::string& configuration) {
-  json plot{{"id", "table1-tests"},
-            {"kind", "bars"},
-            {"title", "Visibility tests a pixel at 32 samples"},
-            {"x", {{"label", "scene"}, {"scale", "category"}, {"values", json::array()}}},
-            {"y", {{"label", "tests a pixel"}, {"scale", "linear"}}},
-            {"series", json::array()}};
+  json plot = new_plot("table1-tests", "bars", "Visibility tests a pixel at 32 samples", {"scene", "", "category"},
+                       {"tests a pixel"}, scene_labels(e.jobs));
   std::vector<json> ours, theirs;
   for (const Measured* m : e.jobs) {
-    plot["x"]["values"].push_back(scene_label(*m));
     ours.push_back(value(*m, configuration, "averages/tests_a_receiver"));
     theirs.push_back(papers(e.paper["table1"], m->job.scene, "32", "tests_a_pixel"));
   }
@@ -131,12 +121,10 @@ json table1_section(const Evidence& e) {
   json section = new_section(
       "table1", "Table 1: stages and work",
       {"Times of each stage and the work that was done, with the setting of the paper's table 1 (four cascades of 2048 "
-       "x "
-       "2048, all optimizations of its section 6), beside the paper's own numbers for the scenes after which ours are "
-       "named. The paper measured a GeForce GTX 980; its one sample took hardware's conservative raster.",
+       "x 2048, all optimizations of its section 6), beside the paper's own numbers for the scenes after which ours "
+       "are named. The paper measured a GeForce GTX 980; its one sample took hardware's conservative raster.",
        "Scenes are namesakes and not copies, so counts agree in kind and not in digits. Compare counts with the "
-       "paper's, "
-       "milliseconds only among ours."});
+       "paper's, milliseconds only among ours."});
   const std::string names[] = {"32 samples, as in the paper", "1 sample, as in the paper"};
   const char* samples[] = {"32", "1"};
   for (int i = 0; i < 2; ++i)

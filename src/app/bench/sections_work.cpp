@@ -8,33 +8,14 @@ namespace izb::bench {
 
 using nlohmann::json;
 
-namespace {
-
-json category_plot(const std::string& id, const std::string& title, const std::string& y, const std::string& unit,
-                   const Evidence& e) {
-  json plot{{"id", id},
-            {"kind", "bars"},
-            {"title", title},
-            {"x", {{"label", "scene"}, {"scale", "category"}, {"values", json::array()}}},
-            {"y", {{"label", y}, {"scale", "linear"}}},
-            {"series", json::array()}};
-  if (!unit.empty()) plot["y"]["unit"] = unit;
-  for (const Measured* m : e.jobs) plot["x"]["values"].push_back(scene_label(*m));
-  return plot;
-}
-
-}  // namespace
-
 json table2_section(const Evidence& e) {
   json section =
       new_section("table2", "Table 2: speed of light",
-                  {"A frame's tests are stored, then a compute pass makes them all, one an invocation, with "
-                   "nothing to find out: what "
-                   "the tests alone take. Beside it, how many tests a millisecond the stage visibility gets "
-                   "through, with its rasterisation, "
-                   "its walks along the lists and its divergence. The pairs that single precision leaves "
-                   "undecided are decided in double "
-                   "in both. Where the stored tests do not give the frame's mask, bit for bit, the row says so."});
+                  {"A frame's tests are stored, then a compute pass makes them all, one an invocation, with nothing to "
+                   "find out: what the tests alone take. Beside it, how many tests a millisecond the stage visibility "
+                   "gets through, with its rasterisation, its walks along the lists and its divergence. The pairs that "
+                   "single precision leaves undecided are decided in double in both. Where the stored tests do not "
+                   "give the frame's mask, bit for bit, the row says so."});
   ReportTable table("table2", "Speed of light at 32 samples",
                     {{.name = "scene", .text = true},
                      {.name = "tests", .unit = "millions", .group = "ours"},
@@ -47,8 +28,8 @@ json table2_section(const Evidence& e) {
                      {.name = "tests / ms", .unit = "thousands", .digits = 0, .group = "paper", .paper = true},
                      {.name = "best: tests / ms", .unit = "thousands", .digits = 0, .group = "paper", .paper = true},
                      {.name = "share of it", .unit = "%", .digits = 0, .group = "paper", .paper = true}});
-  json plot =
-      category_plot("table2-share", "Throughput of the stage visibility", "share of the speed of light", "%", e);
+  json plot = new_plot("table2-share", "bars", "Throughput of the stage visibility", {"scene", "", "category"},
+                       {"share of the speed of light", "%"}, scene_labels(e.jobs));
   std::vector<json> ours, theirs;
   const std::string name = "32 samples";
   for (const Measured* m : e.jobs) {
@@ -78,14 +59,13 @@ json table2_section(const Evidence& e) {
 }
 
 json figure10_section(const Evidence& e) {
-  json section = new_section("figure10", "Figure 10: tests against a ray tracer's",
-                             {"The paper put its frustum tests into a beam tracer and counted: an irregular z-buffer "
-                              "tested 0.3 to 2.6 times as many "
-                              "triangles a pixel. Here the beam tracer is this program's own: one beam a receiver, "
-                              "from its micro-quad to the light, "
-                              "through a hierarchy built by Embree's builder with spatial splits; nearest child first, "
-                              "ending when all 32 samples are in "
-                              "shadow. A triangle is counted once for each leaf in which a beam meets it."});
+  json section =
+      new_section("figure10", "Figure 10: tests against a ray tracer's",
+                  {"The paper put its frustum tests into a beam tracer and counted: an irregular z-buffer tested 0.3 "
+                   "to 2.6 times as many triangles a pixel. Here the beam tracer is this program's own: one beam a "
+                   "receiver, from its micro-quad to the light, through a hierarchy built by Embree's builder with "
+                   "spatial splits; nearest child first, ending when all 32 samples are in shadow. A triangle is "
+                   "counted once for each leaf in which a beam meets it."});
   ReportTable table("figure10", "Triangle tests a receiver at 32 samples",
                     {{.name = "scene", .text = true},
                      {.name = "izb, as in the paper", .group = "tests a receiver"},
@@ -95,8 +75,8 @@ json figure10_section(const Evidence& e) {
                      {.name = "as in the paper / beams", .digits = 2, .group = "ratio"},
                      {.name = "defaults / beams", .digits = 2, .group = "ratio"},
                      {.name = "ratio", .paper = true, .text = true}});
-  json plot = category_plot("figure10-plot", "Triangle tests a receiver", "tests a receiver", "", e);
-  plot["y"]["scale"] = "log";
+  json plot = new_plot("figure10-plot", "bars", "Triangle tests a receiver", {"scene", "", "category"},
+                       {"tests a receiver", "", "log"}, scene_labels(e.jobs));
   std::vector<json> paper_setting, defaults, beams;
   for (const Measured* m : e.jobs) {
     paper_setting.push_back(value(*m, "32 samples, as in the paper", "averages/tests_a_receiver"));

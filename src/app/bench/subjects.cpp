@@ -9,14 +9,14 @@ namespace izb::bench {
 namespace {
 
 /// A technique that costs next to nothing, so that the session itself refuses none of the configurations.
-std::unique_ptr<Technique> placeholder() {
+std::unique_ptr<Technique> smallest_technique() {
   Configuration smallest;
   smallest.technique = "shadow_map";
   smallest.options = {{"resolution", "64"}, {"filter", "none"}};
   return make_technique(smallest);
 }
 
-FrameOptions placeholder_frame(const Job& job) {
+FrameOptions smallest_frame(const Job& job) {
   FrameOptions options = frame_options(job);
   options.size = "16x16";
   return options;
@@ -36,7 +36,7 @@ nlohmann::json description(Subject& s) {
 
 }  // namespace
 
-Subjects::Subjects(const Job& job) : session_(placeholder_frame(job), placeholder(), job.scene.file) {
+Subjects::Subjects(const Job& job) : session_(smallest_frame(job), smallest_technique(), job.scene.file) {
   for (const Configuration& configuration : job.configurations) {
     Subject& s = subjects_.emplace_back(configuration, session_.frame, session_.timers.wall_clock());
     s.frame.size = parse_size(configuration.size.empty() ? job.size : configuration.size);
