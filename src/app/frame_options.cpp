@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/shipped.h"
 #include "gpu/context.h"
 #include "scene/find.h"
 
@@ -70,16 +71,11 @@ Light parse_point(const std::string& text) {
   return light;
 }
 
-/// bench/views.json of the source tree or of the installed program, if the path as given is not there.
+/// The views that come with the program, if the path as given is theirs and is not there.
 std::filesystem::path find_views(const std::string& given) {
   std::error_code ignored;
-  if (std::filesystem::exists(given, ignored)) return given;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  for (const char* below : {"../../bench/views.json", "../share/izb/views.json"}) {
-    const auto path = program.parent_path() / below;
-    if (given == "bench/views.json" && std::filesystem::exists(path, ignored)) return path;
-  }
-  return given;
+  if (given != "bench/views.json" || std::filesystem::exists(given, ignored)) return given;
+  return shipped_path("views.json", given);
 }
 
 Camera choose_camera(const FrameOptions& o, const Scene& scene, const std::optional<Viewpoint>& viewpoint) {

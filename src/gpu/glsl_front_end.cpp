@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/shipped.h"
 
 namespace izb::gpu {
 namespace {
@@ -115,13 +116,7 @@ CheckedShader for_driver(ShaderKind kind, const std::string& preprocessed) {
 
 std::filesystem::path glsl_folder() {
   if (const char* folder = std::getenv("IZB_GLSL")) return folder;
-  std::error_code ignored;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  const auto installed = program.parent_path().parent_path() / IZB_GLSL_INSTALL_DIR;
-  if (std::filesystem::is_directory(installed, ignored)) return installed;
-  if (std::filesystem::is_directory(IZB_GLSL_SOURCE_DIR, ignored)) return IZB_GLSL_SOURCE_DIR;
-  fail("the shader files are neither in {} nor in {}; set IZB_GLSL to their folder", installed.string(),
-       IZB_GLSL_SOURCE_DIR);
+  return shipped_path("glsl", "glsl", "set IZB_GLSL to the folder of the shaders");
 }
 
 std::vector<CheckedShader> check_program(const ProgramSpec& spec) {

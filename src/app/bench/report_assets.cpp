@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <system_error>
 
-#include "base/error.h"
 #include "base/file.h"
+#include "base/shipped.h"
 
 namespace izb::report {
 namespace {
@@ -22,13 +22,7 @@ std::filesystem::path find_d3(const std::filesystem::path& folder) {
 
 std::filesystem::path assets_folder() {
   if (const char* folder = std::getenv("IZB_REPORT")) return folder;
-  std::error_code ignored;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  const auto installed = program.parent_path().parent_path() / IZB_REPORT_INSTALL_DIR;
-  if (std::filesystem::is_directory(installed, ignored)) return installed;
-  if (std::filesystem::is_directory(IZB_REPORT_SOURCE_DIR, ignored)) return IZB_REPORT_SOURCE_DIR;
-  fail("the files of the report are neither in {} nor in {}; set IZB_REPORT to their folder", installed.string(),
-       IZB_REPORT_SOURCE_DIR);
+  return shipped_path("report", "assets/report", "set IZB_REPORT to the folder of the report's files");
 }
 
 Assets read_assets() {

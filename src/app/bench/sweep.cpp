@@ -7,6 +7,7 @@
 #include "app/bench/scene_file.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/shipped.h"
 #include "base/version.h"
 #include "scene/procedural.h"
 
@@ -207,11 +208,7 @@ json parts_of(const json& experiment) {
 }  // namespace
 
 json read_bench_data(const std::string& name) {
-  std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  const fs::path installed = program / "../share/izb" / name, source = program / "../../bench" / name;
-  // A program may be installed below a source tree: its own file counts.
-  const fs::path found = !fs::exists(installed, ignored) && fs::exists(source, ignored) ? source : installed;
+  const fs::path found = shipped_path(name, "bench/" + name);
   const std::string text = read_text_file(found);
   try {
     return json::parse(text);
