@@ -270,6 +270,7 @@ TEST_F(BenchRun, WhatCannotBeReadOrWrittenIsOneSentence) {
   write_file(folder / "share/izb/paper.json", "{");
   fails(words(), "is not the JSON that it should be");
   fs::remove(folder / "share/izb/paper.json");
+  fs::create_directory(folder / "share/izb/paper.json");
   fails(words(), "cannot read");
   EXPECT_FALSE(fs::exists(out));
 }

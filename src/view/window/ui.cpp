@@ -204,12 +204,12 @@ void Ui::take_frame(const std::shared_ptr<const Frame>& frame) {
     if (state_.picked) ask_probe(*state_.picked);
   }
   const glm::dvec3 eye(frame->camera.world_from_view[3]);
-  report_.write("picture", {{"serial", frame->serial},
-                            {"scale", frame->scale},
-                            {"motion", frame->motion},
-                            {"frame_ms", frame_ms},
-                            {"eye", {eye.x, eye.y, eye.z}},
-                            {"sides", sides}});
+  taken_.push_back({{"serial", frame->serial},
+                    {"scale", frame->scale},
+                    {"motion", frame->motion},
+                    {"frame_ms", frame_ms},
+                    {"eye", {eye.x, eye.y, eye.z}},
+                    {"sides", sides}});
 }
 
 /// A camera of the scene or of a path is where the frame had it, whatever moves it.
@@ -246,6 +246,7 @@ void Ui::send_request() {
 
 void Ui::report_changes() {
   const std::vector<Window::Answer> answers = window_.take_answers();
+  for (const nlohmann::json& picture : std::exchange(taken_, {})) report_.write("picture", picture);
   if (!report_.on()) return;
   for (const Window::Answer& answer : answers) {
     report_.write("answer", {{"input", answer.input}, {"ms", answer.ms}});

@@ -171,6 +171,7 @@ class Ui {
   uint64_t probed_serial_ = 0;  ///< of the picture that probed_ is of
   std::string requested_;       ///< what the last request shows
   bool requested_motion_ = false;
+  std::vector<nlohmann::json> taken_;  ///< pictures whose lines wait until the window has shown them
   std::string reported_state_;
   bool rest_reported_ = false;
   std::map<std::string, std::array<float, 4>> rects_, reported_rects_;
