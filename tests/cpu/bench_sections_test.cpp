@@ -291,7 +291,12 @@ TEST(BenchSections, TakeTheBestMapAndOwnUpWhereItIsNearer) {
   EXPECT_EQ(cell(document, "peers-verdicts", scene, "best map", "error"), 2.0);
   EXPECT_EQ(cell(document, "peers-verdicts", scene, "best map / izb"), 2.0);
   EXPECT_EQ(cell(document, "peers-verdicts", scene, "the best map there", "error, flat pixels"), 0.1);
-  EXPECT_EQ(cell(document, "peers-verdicts", scene, "bits unlike those of the rays"), 0.125);
+  const char* bits = "bits unlike those of 32 rays at the same points";
+  EXPECT_EQ(cell(document, "peers-verdicts", scene, "izb, 32 samples", bits), 0.125);
+  EXPECT_EQ(cell(document, "peers-verdicts", scene, "izb, exact", bits), 0.0);
+  EXPECT_EQ(cell(document, "peers-verdicts", scene, "the best map of 32 samples", bits), 2.5);
+  EXPECT_NE(document.dump().find("its samples stand elsewhere"), std::string::npos)
+      << "one sample has no 32 to compare";
   EXPECT_EQ(notes_of(document).find("the truth than 32 samples of izb"), std::string::npos);
   set("map 8192, disc of 32", "inner", 0.0099);
   document = document_of(all);

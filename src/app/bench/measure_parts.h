@@ -30,7 +30,8 @@ void measure_temporal(const Job& job, Subjects& subjects, const std::filesystem:
 
 /// Times, and of each configuration `error` (of the share of light against read_truth(), over `all` pixels with a
 /// surface, the `inner` ones, whose every ray meets what could be lit, and of these the flat_pixels()), `flip_mean` of
-/// the pictures, and for the role `ours` `against_rays`: bits that differ from those of the role `rays`.
+/// the pictures, and `against_rays` where samples stand at the same points as those of the role `rays`: bits that
+/// differ from its.
 void measure_quality(const Job& job, Subjects& subjects, const std::filesystem::path& folder, nlohmann::json& result);
 
 }  // namespace izb::bench

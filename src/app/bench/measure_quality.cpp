@@ -126,6 +126,10 @@ Judged judge(Subject& s, const Truth& truth, const DisplayImage& truth_display, 
   return judged;
 }
 
+bool same_points(const Subject& a, const Subject& b) {
+  return a.technique->samples().offsets_px == b.technique->samples().offsets_px;
+}
+
 /// Bits that two masks of 32 samples at the same places do not share.
 json mask_difference(Subject& reference, Subject& test) {
   const std::vector<uint8_t> counted = receivers_of(*reference.renderer);
@@ -198,7 +202,7 @@ void measure_quality(const Job& job, Subjects& subjects, const std::filesystem::
     json& its = result["configurations"][i++];
     if (!s.works()) continue;
     all.push_back(judge(s, truth, truth_display, its));
-    if (rays && s.configuration.notes.value("role", "") == "ours") its["against_rays"] = mask_difference(*rays, s);
+    if (rays && same_points(*rays, s)) its["against_rays"] = mask_difference(*rays, s);
   }
   result["truth"] = {{"rays", truth.rays}};
   result["pictures"] = insets(job, truth, all, folder);
