@@ -30,21 +30,35 @@ float scale_of(std::vector<float> values) {
   return std::max(1.0f, *at);
 }
 
+/// A report holds many pictures: each is reduced by a whole number, to no less than this.
+int reduction(const Size& size) {
+  constexpr int least_width_px = 640;
+  for (int factor = size.width_px / least_width_px; factor > 1; --factor)
+    if (size.width_px % factor == 0 && size.height_px % factor == 0) return factor;
+  return 1;
+}
+
 nlohmann::json pictures_of(const Job& job, Subjects& subjects, Subject& s, const std::filesystem::path& folder) {
   const Size size = s.frame.size;
+  const int factor = reduction(size);
   std::vector<nlohmann::json> files;
   const auto add = [&](const std::string& word, const std::string& label, const Image8& picture) {
     const std::string name = fmt::format("images/{}-{}-{}.png", job.experiment, file_word(job.scene.name), word);
     write_png(folder / name, picture);
     files.push_back({{"file", name}, {"label", label}});
   };
-  add("picture", "picture", preview(frame_image(subjects.rendered(s), nlohmann::json::object())));
+  add("picture", "picture", preview(box_filter(frame_image(subjects.rendered(s), nlohmann::json::object()), factor)));
   const auto add_map = [&](const std::string& word, const std::string& label, std::vector<float> values) {
     if (values.empty()) return;
     values = flip_rows(std::move(values), size.width_px, size.height_px);
-    const float most = scale_of(values);
+    Image image;
+    image.width_px = size.width_px, image.height_px = size.height_px;
+    image.add("value", std::move(values));
+    image = box_filter(image, factor);
+    const std::vector<float>& means = image.floats("value");
+    const float most = scale_of(means);
     add(word, fmt::format("{} (bright: {:.0f} and more)", label, most),
-        heat_map(values, size.width_px, size.height_px, most));
+        heat_map(means, image.width_px, image.height_px, most));
   };
   add_map("tests", "tests a pixel", s.renderer->tests_a_pixel());
   add_map("lists", "length of the longest list", s.renderer->list_lengths());
