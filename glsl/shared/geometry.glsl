@@ -55,3 +55,16 @@ vec3[3] triangle_vs(uint instance, uint triangle) {
   uint first = frame.info.z + triangle * 3u;
   return vec3[3](vertex_vs(frame, first), vertex_vs(frame, first + 1u), vertex_vs(frame, first + 2u));
 }
+
+// Whose triangle is number `triangle` of the frame? `count`: of the instances.
+uint instance_of(uint triangle, int count) {
+  uint low = 0u, high = uint(count);
+  while (high - low > 1u) {
+    uint middle = (low + high) >> 1;
+    if (instances[middle].info.x <= triangle)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}

@@ -74,6 +74,15 @@ SHARED LightFrame light_face(IN(LightFrame) light, int f) {
   return face;
 }
 
+// The light with the axes of the face that a layer of the grid is of.
+SHARED LightFrame face_of_layer(IN(LightFrame) light, int layer) {
+#if defined(CUBE) || defined(__cplusplus)
+  return light_face(light, layer / int(light.grid.y));
+#else
+  return light;
+#endif
+}
+
 // The face through which the light sees the point.
 SHARED int face_of(IN(vec3) p_ls) {
   vec3 size = abs(p_ls);

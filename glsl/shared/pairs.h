@@ -24,7 +24,6 @@ struct UnsurePair {
   uint node;
   uint instance;  // entry of the instances
   uint triangle;  // of its mesh
-  uint unused;
 };
 
 // A test by its pixel and its triangle, as the G-buffer's id names it (instance + 1, triangle), in two words: 16 bits for the

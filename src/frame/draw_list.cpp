@@ -115,8 +115,16 @@ class Builder {
 
 }  // namespace
 
+uint32_t opaque_triangles(const DrawList& list) {
+  uint64_t sum = 0;
+  for (const DrawGroup& group : list.groups)
+    if (!group.masked) sum += group.triangle_count;
+  return static_cast<uint32_t>(sum);
+}
+
 DrawList make_draw_list(const Scene& scene, uint32_t part_triangles) {
   DrawList list;
+  list.part_triangles = part_triangles;
   place_meshes(scene, list);
   const std::vector<uint32_t> order = ordered_instances(scene);
   Builder builder(scene, part_triangles, list);

@@ -49,11 +49,15 @@ struct DrawList {
   std::vector<DrawCommand>
       commands;  ///< each draws a part, or the same part of several instances at rest; masked ones last
   std::vector<DrawGroup> groups;
-  uint32_t opaque_commands = 0;  ///< the commands before the masked ones
+  uint32_t opaque_commands = 0;                      ///< the commands before the masked ones
+  uint32_t part_triangles = largest_part_triangles;  ///< at most so many in a part
   uint32_t vertex_count = 0, index_count = 0, triangle_count = 0;
 
   static constexpr uint32_t no_vertex = 0xFFFFFFFFu;
 };
+
+/// Triangles before the first masked one, in the frame's numbering.
+uint32_t opaque_triangles(const DrawList& list);
 
 inline bool has_masked(const DrawList& list) {
   return list.opaque_commands < list.commands.size();

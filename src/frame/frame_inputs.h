@@ -18,6 +18,9 @@ struct FrameInputs {
   const GBuffer* gbuffer = nullptr;  ///< its textures are bound to their units
   /// Draws triangles of the scene once: attributes position, uv and instance, storage block of instances bound.
   std::function<void(Drawn)> draw_casters;
+  /// The same by numbers, for a technique that takes the triangles [first, end) from the bound storage blocks, at most
+  /// `most` at once: see SceneBuffers. Only `--raster compute` of izb asks for it.
+  std::function<void(Drawn, uint32_t most, const std::function<void(uint32_t first, uint32_t end)>& take)> for_casters;
   bool masked_casters = false;  ///< are there any to which an alpha mask applies?
   /// The frame's triangles in view space on the CPU, in the frame's numbering; made on first use.
   std::function<const std::vector<glm::vec3>&()> triangles_vs;

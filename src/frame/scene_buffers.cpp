@@ -235,6 +235,21 @@ void SceneBuffers::draw_casters(Drawn drawn) const {
   draw(drawn, false);
 }
 
+void SceneBuffers::for_casters(Drawn drawn, uint32_t most, const std::function<void(uint32_t, uint32_t)>& take) const {
+  bind_storage();
+  Throttle throttle(throttled_, between_draws ? 1 : largest_part_triangles, !between_draws);
+  const uint32_t opaque = opaque_triangles(list_);
+  const uint32_t end = drawn == Drawn::opaque ? opaque : list_.triangle_count;
+  // Between them a frame can be given up; and a software renderer need not keep all that they leave to its raster.
+  const uint32_t step = std::min(most, between_draws ? list_.part_triangles : throttled_ ? 1u << 18 : most);
+  for (uint32_t first = drawn == Drawn::masked ? opaque : 0; first < end; first += std::min(step, end - first)) {
+    const uint32_t count = std::min(step, end - first);
+    take(first, first + count);
+    throttle.drawn(count);
+    if (between_draws) between_draws();
+  }
+}
+
 size_t SceneBuffers::bytes() const {
   size_t sum = positions_.bytes() + normals_.bytes() + uvs_.bytes() + indices_.bytes() + instance_ids_.bytes() +
                commands_.bytes() + instances_.bytes() + materials_.bytes() + white_.bytes() + deform_.bytes() +

@@ -30,6 +30,9 @@ class SceneBuffers {
   void draw_with_textures(Drawn drawn) const;
   /// Draws each of its triangles once: attributes position, uv and instance, for techniques that cast shadows.
   void draw_casters(Drawn drawn) const;
+  /// The same for techniques that take triangles by their numbers from storage blocks, which it binds: calls `take`
+  /// with [first, end) in the frame's numbering, at most `most` at once, until it has had all.
+  void for_casters(Drawn drawn, uint32_t most, const std::function<void(uint32_t first, uint32_t end)>& take) const;
   /// Binds instances, positions, indices and materials as storage blocks; where anything is masked, also what its alpha
   /// takes.
   void bind_storage() const;

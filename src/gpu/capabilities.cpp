@@ -47,6 +47,7 @@ Capabilities query_capabilities() {
   c.max_texture_layers = integer_of(GL_MAX_ARRAY_TEXTURE_LAYERS);
   c.max_buffer_texels = integer_of(GL_MAX_TEXTURE_BUFFER_SIZE);
   c.max_storage_block_bytes = integer_of(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
+  c.max_vertex_storage_blocks = integer_of(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS);
   c.subpixel_bits = integer_of(GL_SUBPIXEL_BITS);
   const int64_t count = integer_of(GL_NUM_EXTENSIONS);
   for (int64_t i = 0; i < count; ++i)
@@ -71,6 +72,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Capabilities& c)
       {"GL_MAX_ARRAY_TEXTURE_LAYERS", fmt::format("{}", c.max_texture_layers)},
       {"GL_MAX_TEXTURE_BUFFER_SIZE", fmt::format("{} texels", c.max_buffer_texels)},
       {"GL_MAX_SHADER_STORAGE_BLOCK_SIZE", fmt::format("{} bytes", c.max_storage_block_bytes)},
+      {"GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS", fmt::format("{}", c.max_vertex_storage_blocks)},
       {"GL_SUBPIXEL_BITS", fmt::format("{}", c.subpixel_bits)}};
   for (const char* name : {"GL_NV_conservative_raster", "GL_NV_conservative_raster_dilate",
                            "GL_NV_geometry_shader_passthrough", "GL_INTEL_conservative_rasterization"})

@@ -14,6 +14,7 @@ struct Capabilities {
   int64_t max_texture_layers = 0;
   int64_t max_buffer_texels = 0;
   int64_t max_storage_block_bytes = 0;
+  int64_t max_vertex_storage_blocks = 0;
   int64_t subpixel_bits = 0;
   std::vector<std::string> extensions;
   /// By how many pixels GL_NV_conservative_raster_dilate can dilate, and in what steps; 0 without it.

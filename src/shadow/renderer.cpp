@@ -93,6 +93,9 @@ void Renderer::prepare(Technique& technique, int width_px, int height_px, const 
   common_.gbuffer = &gbuffer_.gbuffer();
   common_.first_triangle = &buffers_->draw_list().first_triangle;
   common_.draw_casters = [this](Drawn drawn) { buffers_->draw_casters(drawn); };
+  common_.for_casters = [this](Drawn drawn, uint32_t most, const std::function<void(uint32_t, uint32_t)>& draw) {
+    buffers_->for_casters(drawn, most, draw);
+  };
   common_.masked_casters = has_masked(buffers_->draw_list());
   common_.scene = &scene_;
   common_.draw_list = &buffers_->draw_list();

@@ -132,6 +132,13 @@ struct Frame {
   }
 };
 
+/// Of whole numbers, as heat maps hold them.
+inline uint64_t sum_of(const std::vector<float>& values) {
+  uint64_t all = 0;
+  for (const float value : values) all += static_cast<uint64_t>(value);
+  return all;
+}
+
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 inline Settings with(Settings settings, const Settings& more) {
@@ -141,6 +148,8 @@ inline Settings with(Settings settings, const Settings& more) {
 
 inline void set_options(Technique& technique, const Settings& settings) {
   const OptionSet options = technique.options();
+  for (const Option& option : options.options())
+    if (option.name == "raster") option.set("gs");  // the paper's way; compute_test has the other
   for (const auto& [name, value] : with({{"spp", "1"}}, settings)) {
     bool known = false;
     for (const Option& option : options.options())

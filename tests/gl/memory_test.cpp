@@ -84,7 +84,12 @@ TEST(Memory, OfAlphaMapsIsAByteATexelOfMaskedMaterials) {
 TEST(Memory, IsWhatWasComputedBefore) {
   const Scene scene = textured();
   Renderer renderer(scene, capabilities());
-  std::vector<Settings> all{{}, {{"zcull", "off"}}, {{"zcull-pyramid", "off"}}, {{"pairs", "0"}}, {{"cascades", "3"}}};
+  std::vector<Settings> all{{},
+                            {{"zcull", "off"}},
+                            {{"zcull-pyramid", "off"}},
+                            {{"pairs", "0"}},
+                            {{"cascades", "3"}},
+                            {{"raster", "compute"}}};
   for (const char* insertion : {"approximate", "nv", "samples", "exact"})
     for (const char* cascades : {"1", "4", "8"})
       all.push_back({{"spp", "32"}, {"insertion", insertion}, {"cascades", cascades}, {"nodes", "5"}, {"lut", "32"}});

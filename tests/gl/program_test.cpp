@@ -83,13 +83,7 @@ TEST_F(Programs, AFileWithoutVersionIsRefused) {
   EXPECT_EQ(refusal({"a", {"a.comp.glsl"}, {}}), "a.comp.glsl:1: a shader begins with '#version 450 core'");
 }
 
-TEST(RendererPrograms, TheDriverTakesThemAll) {
-  for (const ProgramSpec& spec : izb::Renderer::program_specs())
-    if (spec.extensions.empty()) {
-      EXPECT_NO_THROW(Program program(spec)) << spec.label;
-    }
-}
-
+// Those that need none are given to it by layout_test.
 TEST(RendererPrograms, TheDriverTakesThoseForItsExtensions) {
   std::string lacking;
   for (const ProgramSpec& spec : izb::Renderer::program_specs()) {

@@ -69,9 +69,11 @@ TEST(Reuse, SizesAndLightsChangeWithoutCompiling) {
 TEST(Reuse, OptionsCompileWhatTheyChange) {
   const Scene scene = tangle(5, 200);
   const std::pair<const char*, const char*> changes[] = {
-      {"spp", "1"},    {"spp", "32"},         {"cascades", "3"},        {"zcull", "off"},    {"cascades", "1"},
-      {"zcull", "on"}, {"coverage", "exact"}, {"zcull-pyramid", "off"}, {"coverage", "lut"}, {"insertion", "exact"},
-      {"grid", "100"}, {"insertion", "nv"},   {"samples", "halton"},    {"removal", "off"},  {"lut", "32"}};
+      {"spp", "1"},          {"spp", "32"},          {"cascades", "3"},     {"zcull", "off"},
+      {"cascades", "1"},     {"zcull", "on"},        {"coverage", "exact"}, {"zcull-pyramid", "off"},
+      {"coverage", "lut"},   {"insertion", "exact"}, {"grid", "100"},       {"insertion", "nv"},
+      {"samples", "halton"}, {"removal", "off"},     {"lut", "32"},         {"raster", "compute"},
+      {"raster", "gs"}};
   Reused reused(scene, many);
   reused.mask_of(64, 48);
   std::map<std::string, std::string> now;

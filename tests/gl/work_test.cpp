@@ -2,8 +2,6 @@
 // Where the technique `izb` does its work: by pixel and by texel, against its own sums and the lists.
 #include <fmt/format.h>
 
-#include <numeric>
-
 #include "gl/edge_on_wall.h"
 #include "gl/frame_fixture.h"
 #include "gl/masked_scene.h"
@@ -14,11 +12,6 @@ namespace {
 
 constexpr int width_px = 64, height_px = 48;
 const Camera camera = look_at({4.0, 5.0, 7.0}, {0, 0.6, 0}, glm::radians(50.0));
-
-uint64_t sum(const std::vector<float>& values) {
-  return std::accumulate(values.begin(), values.end(), uint64_t{0},
-                         [](uint64_t all, float value) { return all + static_cast<uint64_t>(value); });
-}
 
 struct Work {
   Izb technique;
@@ -51,9 +44,9 @@ TEST(Work, AddsUpToTheCounts) {
           const std::string what =
               fmt::format("scene {} light {} spp {} cascades {}", s, type_name(light.type), spp, cascades);
           EXPECT_EQ(work.tests.size(), size_t{width_px * height_px}) << what;
-          EXPECT_EQ(sum(work.tests), work.frame.count("visibility_tests")) << what;
-          EXPECT_EQ(sum(work.fragments), work.frame.count("fragments_after_zcull")) << what;
-          EXPECT_GT(sum(work.tests), 3000u) << what;
+          EXPECT_EQ(sum_of(work.tests), work.frame.count("visibility_tests")) << what;
+          EXPECT_EQ(sum_of(work.fragments), work.frame.count("fragments_after_zcull")) << what;
+          EXPECT_GT(sum_of(work.tests), 3000u) << what;
           const IzbInternals built = work.technique.internals();
           EXPECT_EQ(work.fragments.size(), size_t(built.grid) * built.grid * built.layers) << what;
           // Each fragment walks the whole list of its texel.
@@ -71,14 +64,14 @@ TEST(Work, OfOneSampleAddsUpWithRemovalToo) {
   const Work work(tangle(80, 300), sun(130, 35), {{"grid", "64"}});
   // On a GPU a list's walks meet others' removals at another moment each time: seen, 1 % apart.
   const double tests = double(work.frame.count("visibility_tests"));
-  EXPECT_NEAR(double(sum(work.tests)), tests, capabilities().software ? 0.0 : 0.05 * tests);
-  EXPECT_EQ(sum(work.fragments), work.frame.count("fragments_after_zcull"));
+  EXPECT_NEAR(double(sum_of(work.tests)), tests, capabilities().software ? 0.0 : 0.05 * tests);
+  EXPECT_EQ(sum_of(work.fragments), work.frame.count("fragments_after_zcull"));
   EXPECT_GT(work.frame.count("nodes_removed"), 100u);
 }
 
 TEST(Work, WithoutZCullIsThatOfAllFragments) {
   const Work work(tangle(80, 300), sun(130, 35), {{"grid", "64"}, {"zcull", "off"}, {"spp", "32"}});
-  EXPECT_EQ(sum(work.fragments), work.frame.count("fragments"));
+  EXPECT_EQ(sum_of(work.fragments), work.frame.count("fragments"));
 }
 
 // The floor's micro-quads must not pay for those of the wall.

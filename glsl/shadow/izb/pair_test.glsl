@@ -60,12 +60,14 @@ Triangle make_triangle(CameraFrame eye, vec3 a, vec3 b, vec3 c, Cutout cutout) {
 }
 #endif
 
-// For what single precision cannot decide.
+// A receiver's own triangle, the commonest that single precision cannot decide, lies within the bias of its plane and never
+// occludes it.
+bool is_to_settle(ivec2 px, uvec2 id) { return texelFetch(id_texture, px, 0).xy != id; }
+
 void add_pair(ivec2 px, uvec2 id) {
-  // A receiver's own triangle, the commonest of them, lies within the bias of its plane and never occludes it.
-  if (texelFetch(id_texture, px, 0).xy == id) return;
+  if (!is_to_settle(px, id)) return;
   uint i = atomicAdd(counters.pairs, 1u);
-  if (i < counters.capacity) pairs[i] = UnsurePair(node_from_pixel(px, 0), id.x - 1u, id.y, 0u);
+  if (i < counters.capacity) pairs[i] = UnsurePair(node_from_pixel(px, 0), id.x - 1u, id.y);
 }
 
 // The mask bits of one pair.
@@ -81,7 +83,11 @@ uint test(CameraFrame eye, Triangle t, ivec2 px, vec4 data, out bool unsure) {
     if (bits != 0u) {
       uint undecided;
       bits = uncut_bits(t.cutout, quad_planes(eye, light, t.a, t.b, t.c, px, data), bits, undecided);
+#ifdef IN_DOUBLE
       if (undecided != 0u) counters.unfinished = 1u;
+#else
+      unsure = unsure || undecided != 0u;
+#endif
     }
   }
 #endif

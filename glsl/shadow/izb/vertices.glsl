@@ -1,11 +1,15 @@
 // What a geometry shader gets of a triangle and hands to the test, after `layout(triangles) in`. MASKED: also where its
-// vertices stand on the texture of its alpha mask.
+// vertices stand on the texture of its alpha mask. PULL: from a list, with the number of each and its layer.
 #include "shared/bindings.h"
 #include "shared/hits.h"
 #include "shared/pairs.h"
 
 layout(location = 0) in vec3 v_position_vs[];
 layout(location = 1) flat in uint v_instance[];
+#ifdef PULL
+layout(location = 2) flat in uint v_triangle[];
+layout(location = 3) flat in uint v_layer[];
+#endif
 
 layout(location = 0) flat out vec3 g_a;
 layout(location = 1) flat out vec3 g_b;

@@ -5,6 +5,7 @@
 #include "shadow/izb/izb.h"
 #include "shared/lists.h"
 #include "shared/pyramid.h"
+#include "shared/sweep.h"
 #include "shared/table.h"
 
 namespace izb {
@@ -19,7 +20,8 @@ gpu::Planned planned_pool(int rows) {
 
 gpu::Plan Izb::memory_needed(const FrameShape& shape) const {
   const int width_px = shape.width_px, height_px = shape.height_px, layers = settings_.cascades * shape.faces;
-  const IzbSettings& s = settings_;
+  IzbSettings s = settings_;
+  s.choose_raster(true);  // what takes more
   const auto grids = [&](const char* part, GLenum format) {
     return gpu::planned_texture(part, format, s.grid, s.grid, {"--grid", "--cascades"}, layers);
   };
@@ -49,13 +51,21 @@ gpu::Plan Izb::memory_needed(const FrameShape& shape) const {
          sizeof(shared::UnsurePair) * static_cast<uint64_t>(s.pairs(width_px, height_px)), {"--pairs"});
   buffer("pairs", Kind::storage_buffer, sizeof(shared::Counters));
   if (s.pool()) buffer("pairs", Kind::storage_buffer, sizeof(shared::PoolCounters));
+  if (s.compute()) {
+    buffer("listed", Kind::storage_buffer, sizeof(shared::ListedTriangle) * shared::list_size);
+    buffer("listed", Kind::storage_buffer, sizeof(shared::ListedCounts));
+  }
   return plan;
 }
 
 Counts Izb::memory() const {
-  return {{"heads", heads_.bytes()},       {"nodes", nodes_.bytes()},
-          {"furthest", furthest_.bytes()}, {"zcull", depth_.bytes() + pyramid_.bytes()},
-          {"table", table_.bytes()},       {"pairs", pairs_.bytes() + counters_.bytes() + pool_counter_.bytes()}};
+  return {{"heads", heads_.bytes()},
+          {"nodes", nodes_.bytes()},
+          {"furthest", furthest_.bytes()},
+          {"zcull", depth_.bytes() + pyramid_.bytes()},
+          {"table", table_.bytes()},
+          {"pairs", pairs_.bytes() + counters_.bytes() + pool_counter_.bytes()},
+          {"listed", listed_.bytes() + listed_counts_.bytes()}};
 }
 
 // Known only now, since the receivers' places in the grid decide it. An eighth more, so that a moving camera does not

@@ -13,13 +13,16 @@ namespace {
 bool belongs(IzbProgram program, const IzbSettings& settings) {
   if (program == IzbProgram::count_nodes) return settings.pool();
   if (program >= IzbProgram::hardware && program <= IzbProgram::hardware_stored) return settings.hardware();
+  if (program >= IzbProgram::list && program <= IzbProgram::sweep_stored) return settings.compute();
   return true;
 }
 
 /// Takes no part in a frame.
 bool measures(IzbProgram program) {
   return (program >= IzbProgram::visibility_counted && program <= IzbProgram::visibility_stored) ||
-         (program >= IzbProgram::hardware_counted && program <= IzbProgram::speed_of_light);
+         (program >= IzbProgram::hardware_counted && program <= IzbProgram::hardware_stored) ||
+         program == IzbProgram::list_all ||
+         (program >= IzbProgram::sweep_counted && program <= IzbProgram::speed_of_light);
 }
 
 }  // namespace
@@ -27,7 +30,8 @@ bool measures(IzbProgram program) {
 bool knows_masks(IzbProgram program, const IzbSettings& settings) {
   if (program == IzbProgram::settle || program == IzbProgram::speed_of_light)
     return settings.alpha == "exact";  // else the walk has asked before
-  return settings.alpha_masks() && program >= IzbProgram::visibility && program <= IzbProgram::hardware_stored;
+  if (program == IzbProgram::list || program == IzbProgram::list_all) return false;
+  return settings.alpha_masks() && program >= IzbProgram::visibility && program <= IzbProgram::sweep_stored;
 }
 
 IzbProgram hardware_of(IzbProgram visibility) {
@@ -47,6 +51,23 @@ IzbProgram hardware_of(IzbProgram visibility) {
   }
 }
 
+IzbProgram sweep_of(IzbProgram visibility) {
+  switch (visibility) {
+    case IzbProgram::visibility:
+      return IzbProgram::sweep;
+    case IzbProgram::visibility_counted_all:
+      return IzbProgram::sweep_counted_all;
+    case IzbProgram::visibility_tests:
+      return IzbProgram::sweep_tests;
+    case IzbProgram::visibility_fragments:
+      return IzbProgram::sweep_fragments;
+    case IzbProgram::visibility_stored:
+      return IzbProgram::sweep_stored;
+    default:
+      return IzbProgram::sweep_counted;
+  }
+}
+
 gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, LightKind light, bool masked) {
   const std::string folder = "shadow/izb/";
   gpu::Defines defines;
@@ -63,20 +84,27 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
     define(masked, s.alpha == "exact" ? "ALPHA_EXACT" : "ALPHA_FRAGMENT");
   };
   const int faces = light == LightKind::cube ? shared::cube_faces : 1;
-  const auto fragment_defines = [&](const std::string& variant) {
+  const auto texel_defines = [&](const std::string& variant) {
     walk_defines();
     define(faces > 1, "CUBE");
     define(s.removal, "REMOVAL");
     define(s.unchanged_skip, "SKIP");
-    define(s.pipelining, "PIPELINE");
-    if (s.cascades * faces > 1) defines["LAYERS"] = std::to_string(s.layers_a_pass(faces));
     if (!variant.empty()) defines[variant] = "1";
     define(variant.starts_with("COUNT_"), "COUNT");
+  };
+  const auto fragment_defines = [&](const std::string& variant) {
+    texel_defines(variant);
+    define(s.pipelining, "PIPELINE");
+    if (s.cascades * faces > 1) defines["LAYERS"] = std::to_string(s.compute() ? 1 : s.layers_a_pass(faces));
   };
   const auto visibility = [&](bool pyramid, const char* variant) -> gpu::ProgramSpec {
     fragment_defines(variant);
     define(pyramid, "PYRAMID");
     define(s.hardware(), "REST");
+    if (s.compute()) {
+      define(true, "PULL");
+      defines.insert(s.geometry.begin(), s.geometry.end());
+    }
     return {fmt::format("izb visibility {}", variant),
             {folder + "5_visibility.vert.glsl", folder + "5_visibility.geom.glsl", folder + "5_visibility.frag.glsl"},
             defines};
@@ -89,6 +117,21 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
         {folder + "5_visibility.vert.glsl", folder + "5_visibility_hw.geom.glsl", folder + "5_visibility.frag.glsl"},
         defines,
         {"GL_NV_geometry_shader_passthrough"}};
+  };
+  const auto sweep = [&](bool culled, const char* variant) -> gpu::ProgramSpec {
+    texel_defines(variant);
+    define(true, "SWEEP");
+    define(culled && s.zcull, "ZCULL");
+    defines.insert(s.geometry.begin(), s.geometry.end());
+    return {fmt::format("izb visibility sweep {}", variant), {folder + "5_visibility.comp.glsl"}, defines};
+  };
+  const auto list = [&](bool culled) -> gpu::ProgramSpec {
+    light_defines();
+    define(faces > 1, "CUBE");
+    define(s.many_samples(), "SPP32");
+    define(culled && s.pyramid(), "PYRAMID");
+    defines.insert(s.geometry.begin(), s.geometry.end());
+    return {"izb visibility list", {folder + "5_visibility_list.comp.glsl"}, defines};
   };
   const auto build = [&](bool count) -> gpu::ProgramSpec {
     light_defines();
@@ -143,6 +186,22 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
       return hardware("COUNT_FRAGMENTS");
     case IzbProgram::hardware_stored:
       return hardware("STORE_TESTS");
+    case IzbProgram::list:
+      return list(true);
+    case IzbProgram::list_all:
+      return list(false);
+    case IzbProgram::sweep:
+      return sweep(true, "");
+    case IzbProgram::sweep_counted:
+      return sweep(true, "COUNT");
+    case IzbProgram::sweep_counted_all:
+      return sweep(false, "COUNT");
+    case IzbProgram::sweep_tests:
+      return sweep(true, "COUNT_TESTS");
+    case IzbProgram::sweep_fragments:
+      return sweep(true, "COUNT_FRAGMENTS");
+    case IzbProgram::sweep_stored:
+      return sweep(true, "STORE_TESTS");
     case IzbProgram::speed_of_light:
       walk_defines();
       define(s.unchanged_skip, "SKIP");
@@ -181,8 +240,10 @@ std::vector<gpu::ProgramSpec> izb_program_specs() {
     IzbSettings settings;
     settings.apply(preset);
     add(settings);
-    settings.raster = "hw";
-    add(settings);
+    for (const char* raster : {"hw", "compute"}) {
+      settings.raster = raster;
+      add(settings);
+    }
   }
   IzbSettings settings;
   const OptionSet set = settings.options();
@@ -201,6 +262,8 @@ std::vector<gpu::ProgramSpec> izb_program_specs() {
   add(settings);
   settings = IzbSettings();
   settings.geometry = {{"POSITION_WINDOWS", "2"}, {"INDEX_WINDOWS", "3"}, {"WINDOW_WORDS", "192u"}};
+  add(settings);
+  settings.raster = "compute";
   add(settings);
   return all;
 }

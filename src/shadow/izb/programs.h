@@ -29,6 +29,14 @@ enum class IzbProgram {
   hardware_tests,
   hardware_fragments,
   hardware_stored,
+  list,  ///< of --raster compute, before a sweep
+  list_all,
+  sweep,  ///< before the one of the same variant above, which gets the other triangles
+  sweep_counted,
+  sweep_counted_all,
+  sweep_tests,
+  sweep_fragments,
+  sweep_stored,
   speed_of_light,  ///< the tests of that list
   settle,
   overflow,
@@ -41,6 +49,8 @@ enum class LightKind { directional, positional, cube };
 
 /// What --raster hw draws before it.
 IzbProgram hardware_of(IzbProgram visibility);
+/// What --raster compute runs before it; that one takes all in double.
+IzbProgram sweep_of(IzbProgram visibility);
 /// Whether it has a variant for casters with an alpha mask.
 bool knows_masks(IzbProgram program, const IzbSettings& settings);
 

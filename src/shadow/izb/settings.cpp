@@ -25,9 +25,12 @@ OptionSet IzbSettings::options() {
       "alpha", alpha, {"exact", "fragment", "off"},
       "of casters with an alpha mask: asked where each sample's line to the light meets them, once a fragment of "
       "the light-space grid, or not at all, so that they cast as opaque");
-  set.choice("raster", raster, {"gs", "hw"},
-             "dilate triangles in a geometry shader, or by the hardware's conservative rasteriser and a pass-through "
-             "geometry shader, which NVIDIA GPUs have since GM204 (7)");
+  set.choice("raster", raster, {"auto", "gs", "hw", "compute"},
+             "gs: dilate triangles in a geometry shader; hw: by the hardware's conservative rasteriser and a "
+             "pass-through geometry shader, which NVIDIA GPUs have since GM204 (7); compute: walk the lists of small "
+             "triangles in a compute shader and dilate the others; auto: compute on a software renderer, else gs");
+  set.integer("compute-texels", compute_texels, 0, 16384, "texels",
+              "of --raster compute: triangles that may touch more are left to the geometry shader");
   set.integer("grid", grid, 16, 16384, "texels", "side of the light-space grid of lists (6.3)");
   set.number("grid-density", grid_density, 0.0, 1000.0, "texels a receiver",
              "a grid whose window holds few receivers uses no more texels than that for each, since small texels only "
@@ -45,14 +48,14 @@ OptionSet IzbSettings::options() {
            "depths");
   set.integer("pairs", pair_capacity, by_size, 1 << 24, "pairs",
               "room for triangle-pixel pairs that single precision cannot decide; when it is exceeded a second pass "
-              "decides them in double; -1: by the picture, one for 16 pixels, or at 32 samples for 2");
+              "decides them in double; -1: by the picture, one for 16 pixels, or at 32 samples for each");
   return set;
 }
 
 int IzbSettings::pairs(int width_px, int height_px) const {
   if (pair_capacity != by_size) return pair_capacity;
   const int64_t pixels = int64_t(width_px) * height_px;
-  return static_cast<int>(std::clamp<int64_t>(pixels / (many_samples() ? 2 : 16), 4096, 1 << 24));
+  return static_cast<int>(std::clamp<int64_t>(pixels / (many_samples() ? 1 : 16), 4096, 1 << 24));
 }
 
 std::vector<std::string> IzbSettings::preset_names() {
@@ -63,6 +66,7 @@ void IzbSettings::apply(const std::string& preset) {
   if (preset == "paper") {  // table 1: four cascades of 2048 x 2048, every optimisation of section 6
     sampling = {"32", "halton"};
     lut = "32";
+    raster = "gs";
     insertion = "nv";
     alpha = "fragment";
     cascades = 4;

@@ -1,0 +1,157 @@
+// The walk over lists, for fragments (5_visibility.frag.glsl) and for invocations that have a triangle each
+// (5_visibility.comp.glsl): tests each listed pixel against the triangle, and adds shadow to its mask.
+// Defines, beside those of pair_test.glsl: PIPELINE: fetch one node ahead (6.8); SWEEP: over the lists of many texels;
+// COUNT: count fragments and tests, ZCULL: but for a sweep's empty lists; COUNT_TESTS, COUNT_FRAGMENTS: also those of each pixel,
+// of each texel; STORE_TESTS: store each test for 5_visibility_speed_of_light.comp.glsl.
+#include "shadow/izb/pair_test.glsl"
+
+#ifdef COUNT_TESTS
+layout(binding = IMAGE_WORK, r32ui) uniform uimage2D tests_a_pixel;
+#endif
+#ifdef COUNT_FRAGMENTS
+layout(binding = IMAGE_WORK, r32ui) uniform uimage2DArray fragments_a_texel;
+#endif
+#ifdef STORE_TESTS
+layout(binding = IMAGE_WORK, rg32ui) writeonly uniform uimage2D stored_tests;
+
+void store_test(ivec2 px, uvec2 id) {
+  int i = int(atomicAdd(counters.stored, 1u));
+  if (!is_storable(id)) counters.unstorable = 1u;
+  // A store beyond the image's end has no effect.
+  imageStore(stored_tests, ivec2(i % tests_a_row, i / tests_a_row), uvec4(stored_test(px, id), 0u, 0u));
+}
+#endif
+
+#if defined(ALPHA_FRAGMENT) || defined(SWEEP)
+layout(std140, binding = BIND_WINDOWS) uniform WindowBlock { LightWindow windows[max_layers]; };
+#endif
+#ifdef ALPHA_FRAGMENT
+// Is the triangle not there at the texel's centre?
+bool is_hole(Triangle t, ivec3 texel) {
+  dvec3 weights = fragment_weights(face_of_layer(light, texel.z), windows[texel.z], vec2(texel.xy) + 0.5, t.a, t.b, t.c);
+  return !is_there(t.cutout.map, texel_of_weights(t.cutout.corners, weights));
+}
+#endif
+
+struct Walk {
+  ivec3 texel;
+  Receiver previous;
+  uint node;  // where to go on
+#ifdef SWEEP
+  int texels;    // that are left
+  ivec4 box;     // first and last of all
+  vec3 edge[4];  // of the footprint, within which none is negative
+#endif
+  uint fragments;
+  uint tests;
+  uint removed;
+  uint unchanged;
+};
+
+Walk begin_walk(ivec3 texel) {
+  Walk w;
+  w.texel = texel;
+  w.previous.node = no_node;
+  w.node = no_node;
+  w.fragments = w.tests = w.removed = w.unchanged = 0u;
+#ifdef SWEEP
+  w.texels = 0;
+#endif
+  return w;
+}
+
+void count_fragment(inout Walk w) {
+#ifdef COUNT
+  ++w.fragments;
+#ifdef COUNT_FRAGMENTS
+  imageAtomicAdd(fragments_a_texel, w.texel, 1u);
+#endif
+#endif
+}
+
+bool goes_on(Walk w) {
+#ifdef SWEEP
+  return w.node != no_node || w.texels > 0;
+#else
+  return w.node != no_node;
+#endif
+}
+
+#ifdef SWEEP
+// Goes to the next texel, and if it is in the footprint to the head of its list.
+void next_texel(Triangle triangle, inout Walk w) {
+  --w.texels;
+  ++w.texel.x;
+  if (w.texel.x > w.box.z) w.texel.xy = ivec2(w.box.x, w.texel.y + 1);
+  vec3 center = vec3(vec2(w.texel.xy) + 0.5, 1.0);
+  float inside = min(min(dot(w.edge[0], center), dot(w.edge[1], center)),
+                     min(dot(w.edge[2], center), dot(w.edge[3], center)));
+  if (inside < 0.0) return;
+  uint head = load_head(w.texel);
+#ifdef ZCULL
+  if (head == no_node) return;
+#endif
+#ifdef ALPHA_FRAGMENT
+  if (is_hole(triangle, w.texel)) return;
+#endif
+  count_fragment(w);
+  w.previous.node = no_node;
+  w.node = head;
+}
+#endif
+
+// Stops at the end, or after a pair that single precision cannot decide. True: such a pair was met, `px` is its pixel.
+bool walk(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, out ivec2 px) {
+  bool unsure = false;
+#ifdef PIPELINE
+  Receiver ahead = load_receiver(w.node);
+#endif
+  while (goes_on(w) && !unsure) {
+#ifdef SWEEP
+    // In the same loop: with one of its own, all lanes would wait for the one that skips most.
+    if (w.node == no_node) next_texel(triangle, w);
+    if (w.node == no_node) continue;
+#endif
+#ifdef PIPELINE
+    Receiver r = ahead;
+    ahead = load_receiver(r.next);
+#else
+    Receiver r = load_receiver(w.node);
+#endif
+    w.node = r.next;
+    px = r.px;
+#ifdef REMOVAL
+    if (imageLoad(mask, px).x == 0xffffffffu) {
+      unlink_after(w.previous, w.texel, r.next);
+      ++w.removed;
+      continue;
+    }
+    w.previous = r;
+#endif
+    ++w.tests;
+#ifdef COUNT_TESTS
+    imageAtomicAdd(tests_a_pixel, px, 1u);
+#endif
+#ifdef STORE_TESTS
+    store_test(px, id);
+#endif
+    uint bits = test(eye, triangle, r.px, r.data, unsure);
+    if (bits != 0u && !add_shadow(px, bits)) ++w.unchanged;
+#ifdef SWEEP
+    // Whoever stops waits for the longest of all sweeps.
+    if (unsure) unsure = is_to_settle(px, id);
+#endif
+  }
+  return unsure;
+}
+
+#ifdef COUNT
+void add_counts(Walk w) {
+  uint fragments = atomicAdd(counters.fragments, w.fragments);
+  if (fragments + w.fragments < fragments) atomicAdd(counters.carries, 1u);
+  uint tests = atomicAdd(counters.visibility_tests, w.tests);
+  if (tests + w.tests < tests) atomicAdd(counters.carries, 1u << 16);
+  atomicAdd(counters.removed, w.removed);
+  atomicAdd(counters.unchanged, w.unchanged);
+}
+#endif

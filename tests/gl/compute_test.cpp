@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// --raster compute: the mask and the tests of the raster pipeline, with less work for it.
+#include "base/error.h"
+#include "gl/frame_fixture.h"
+#include "gl/masked_scene.h"
+#include "shadow/izb/izb.h"
+
+namespace izb::test {
+namespace {
+
+constexpr int width_px = 64, height_px = 48;
+const Camera camera = look_at({4.0, 5.0, 7.0}, {0, 0.6, 0}, glm::radians(50.0));
+const Settings exact{{"spp", "32"}, {"coverage", "exact"}, {"insertion", "exact"}, {"grid", "128"}};
+const Settings compute{{"raster", "compute"}};
+
+std::vector<Light> lights() {
+  return {sun(130, 35), spot({1, 5, 2}, {0, 0, 0}, 55), point_light({0.5, 2.5, 0.4})};
+}
+
+/// Nothing left to the raster pipeline, some of it, all of it.
+void expect_brute_force(const Scene& scene, const Settings& settings) {
+  Izb technique;
+  set_options(technique, with(settings, compute));
+  Renderer renderer(scene, capabilities());
+  for (const Light& light : lights())
+    for (const int texels : {16384, 64, 0}) {
+      technique.settings().compute_texels = texels;
+      renderer.prepare(technique, width_px, height_px, {light});
+      const Frame frame = render_frame(renderer, technique, camera, light);
+      const bool many = frame.receivers.sample_count() == 32;
+      EXPECT_EQ(different(frame.mask, many ? brute_force_words(frame) : brute_force_mask(frame)), 0u)
+          << texels << " texels, " << type_name(light.type);
+      EXPECT_GT(shadowed(frame), 100u);
+    }
+}
+
+TEST(Compute, WritesTheBruteForceMaskAtOneSample) {
+  expect_brute_force(masked_tangle(201), {{"grid", "256"}});
+}
+
+TEST(Compute, WritesTheBruteForceMaskAt32Samples) {
+  expect_brute_force(masked_tangle(203), exact);
+}
+
+TEST(Compute, TheExactMaskDependsOnNoOption) {
+  const Scene scene = tangle(204, 300);
+  const Settings variants[] = {{{"raster", "gs"}},
+                               {{"cascades", "4"}, {"cascade-pass", "multiple"}, {"zcull", "off"}},
+                               {{"removal", "off"}, {"unchanged-skip", "off"}, {"pipelining", "on"}, {"cascades", "3"}},
+                               {{"pairs", "0"}}};
+  const Light light = point_light({0.5, 2.5, 0.4});
+  const Frame base = render_frame(scene, camera, light, width_px, height_px, with(exact, compute));
+  EXPECT_GT(base.count("pairs_in_double"), 100u);  // or `pairs` decides nothing
+  for (const Settings& variant : variants) {
+    const Frame other = render_frame(scene, camera, light, width_px, height_px, with(with(exact, compute), variant));
+    EXPECT_EQ(different(base.mask, other.mask), 0u) << variant[0].first;
+  }
+}
+
+TEST(Compute, AlphaOnceAFragmentIsThatOfTheGeometryShader) {
+  const Scene scene = masked_tangle(205);
+  for (const Light& light : lights()) {
+    const Settings settings{{"alpha", "fragment"}, {"grid", "256"}};
+    const Frame theirs = render_frame(scene, camera, light, width_px, height_px, settings);
+    const Frame ours = render_frame(scene, camera, light, width_px, height_px, with(settings, compute));
+    // A compiler may round where a texel's centre meets the triangle in two ways in two programs.
+    EXPECT_LE(different(ours.mask, theirs.mask), capabilities().software ? 0u : 5u) << type_name(light.type);
+  }
+}
+
+// llvmpipe ends all loops of an invocation after 65,535 rounds: such a triangle is left to fragments, with a limit
+// each.
+TEST(Compute, WhatALoopMayNotFinishIsLeftToFragments) {
+  for (const bool masked : {false, true}) {
+    Scene scene = masked ? masked_tangle(206) : tangle(206, 20);
+    add_soup(scene, rectangle({-6, 6, -6}, {0, 0, 12}, {12, 0, 0}));  // over all of it
+    if (masked) {
+      mask_mesh(scene, scene.meshes.size() - 1, 207, blots(207, 8, 8, Wrap::repeat, Wrap::repeat, false));
+    }
+    const Settings few_lists = with(exact, {{"grid", "64"}, {"removal", "off"}, {"unchanged-skip", "off"}});
+    const Settings swept = with(with(few_lists, compute), {{"compute-texels", "16384"}});
+    const Frame theirs = render_frame(scene, camera, sun(130, 80), 480, 360, few_lists);
+    const Frame ours = render_frame(scene, camera, sun(130, 80), 480, 360, swept);
+    EXPECT_EQ(different(ours.mask, theirs.mask), 0u);
+    if (capabilities().software) {
+      EXPECT_GT(ours.count("triangles_drawn"), 0u) << "nothing came to the limit";
+    }
+  }
+}
+
+TEST(Compute, LeavesOnlyTheLargeTrianglesToTheRasterPipeline) {
+  const Scene scene = tangle(208, 300);
+  const auto counts = [&](const Settings& more) {
+    return render_frame(scene, camera, sun(130, 35), width_px, height_px,
+                        with({{"spp", "32"}, {"removal", "off"}, {"grid", "512"}}, more));
+  };
+  const Frame theirs = counts({}), ours = counts(compute), none = counts(with(compute, {{"compute-texels", "0"}})),
+              all = counts(with(compute, {{"compute-texels", "16384"}}));
+  const uint64_t triangles = theirs.count("triangles_after_zcull"), tests = theirs.count("visibility_tests");
+  EXPECT_GT(triangles, 100u);
+  EXPECT_EQ(none.count("triangles_after_zcull"), triangles);
+  EXPECT_EQ(none.count("visibility_tests"), tests);
+  EXPECT_LE(none.count("triangles_drawn"), triangles);
+  EXPECT_EQ(ours.count("triangles_after_zcull"), triangles);
+  EXPECT_GT(ours.count("triangles_drawn"), 0u);
+  EXPECT_LT(ours.count("triangles_drawn"), none.count("triangles_drawn") / 2);
+  EXPECT_LT(all.count("triangles_drawn"), ours.count("triangles_drawn"));
+  // The same footprints, but a sweep asks no depth.
+  EXPECT_GT(ours.count("visibility_tests"), tests * 99 / 100);
+  EXPECT_LT(ours.count("visibility_tests"), tests * 2);
+}
+
+TEST(Compute, ItsWorkAddsUpAndItsTestsCanBeStored) {
+  for (const Scene& scene : {tangle(209, 300), masked_tangle(210)}) {
+    Izb technique;
+    set_options(technique, {{"spp", "32"}, {"removal", "off"}, {"grid", "64"}, {"raster", "compute"}});
+    Renderer renderer(scene, capabilities());
+    const Light light = point_light({0.5, 2.5, 0.4});
+    renderer.prepare(technique, width_px, height_px, {light});
+    const Frame frame = render_frame(renderer, technique, camera, light);
+    EXPECT_GT(frame.count("visibility_tests"), 3000u);
+    EXPECT_EQ(sum_of(renderer.tests_a_pixel()), frame.count("visibility_tests"));
+    EXPECT_EQ(sum_of(renderer.fragments_a_texel()), frame.count("fragments_after_zcull"));
+    const SpeedOfLight alone = renderer.speed_of_light(0, 1).value();
+    EXPECT_EQ(alone.tests, frame.count("visibility_tests"));
+    EXPECT_TRUE(alone.same_mask);
+    EXPECT_EQ(renderer.read_mask(), frame.mask);
+  }
+}
+
+TEST(Compute, TakesTheTrianglesPartByPart) {
+  const Scene scene = masked_tangle(211);
+  const DrawList list = make_draw_list(scene, 64);
+  const auto buffers = std::make_shared<SceneBuffers>(scene, list, capabilities());
+  using Parts = std::vector<std::pair<uint32_t, uint32_t>>;
+  const auto parts = [&](Drawn drawn, uint32_t most) {
+    Parts all;
+    buffers->for_casters(drawn, most, [&](uint32_t first, uint32_t end) { all.emplace_back(first, end); });
+    return all;
+  };
+  const uint32_t opaque = opaque_triangles(list), all = list.triangle_count;
+  EXPECT_GT(opaque, 100u);
+  EXPECT_LT(opaque, all);
+  EXPECT_EQ(parts(Drawn::all, 100000), (Parts{{0, all}}));
+  EXPECT_EQ(parts(Drawn::opaque, 100000), (Parts{{0, opaque}}));
+  EXPECT_EQ(parts(Drawn::masked, 100000), (Parts{{opaque, all}}));
+  EXPECT_EQ(parts(Drawn::masked, all - opaque - 1), (Parts{{opaque, all - 1}, {all - 1, all}}));
+
+  // Frames by many parts, and one that is given up between them.
+  Izb technique;
+  set_options(technique, with(exact, compute));
+  Renderer renderer(scene, capabilities(), buffers);
+  renderer.prepare(technique, width_px, height_px, {sun(130, 35)});
+  const Frame whole = render_frame(renderer, technique, camera, sun(130, 35));
+  int calls = 0, most = 1000;
+  buffers->between_draws = [&] {
+    if (++calls > most) fail("given up");
+  };
+  EXPECT_EQ(render_frame(renderer, technique, camera, sun(130, 35)).mask, whole.mask);
+  EXPECT_GT(calls, 8);
+  gpu::StageTimers timers(true);
+  for (most = 1; most < 12; most += 3) {
+    calls = 0;
+    EXPECT_THROW(renderer.render(camera, {sun(130, 35)}, timers), Error) << most;
+  }
+  buffers->between_draws = nullptr;
+  EXPECT_EQ(render_frame(renderer, technique, camera, sun(130, 35)).mask, whole.mask);
+}
+
+TEST(Compute, WithoutStorageBlocksInTheVertexShaderIsANamedRefusal) {
+  Izb technique;
+  set_options(technique, compute);
+  EXPECT_EQ(technique.missing(capabilities()), "");
+  gpu::Capabilities less = capabilities();
+  less.max_vertex_storage_blocks = 2;
+  EXPECT_NE(technique.missing(less).find("--raster compute reads 4 storage blocks in the vertex shader"),
+            std::string::npos)
+      << technique.missing(less);
+}
+
+}  // namespace
+}  // namespace izb::test
