@@ -148,8 +148,6 @@ inline Settings with(Settings settings, const Settings& more) {
 
 inline void set_options(Technique& technique, const Settings& settings) {
   const OptionSet options = technique.options();
-  for (const Option& option : options.options())
-    if (option.name == "raster") option.set("gs");  // the paper's way; compute_test has the other
   for (const auto& [name, value] : with({{"spp", "1"}}, settings)) {
     bool known = false;
     for (const Option& option : options.options())

@@ -51,7 +51,6 @@ void Izb::resize(const FrameShape& shape) {
   built_.pair_capacity = settings_.pairs(shape.width_px, shape.height_px);
   built_.geometry = shape.geometry.defines();
   const gpu::Capabilities capabilities = gpu::query_capabilities();
-  built_.choose_raster(capabilities.software);
   shape_ = shape;
   const IzbSettings& s = built_;
   programs_.follow(s);

@@ -20,8 +20,7 @@ gpu::Planned planned_pool(int rows) {
 
 gpu::Plan Izb::memory_needed(const FrameShape& shape) const {
   const int width_px = shape.width_px, height_px = shape.height_px, layers = settings_.cascades * shape.faces;
-  IzbSettings s = settings_;
-  s.choose_raster(true);  // what takes more
+  const IzbSettings& s = settings_;
   const auto grids = [&](const char* part, GLenum format) {
     return gpu::planned_texture(part, format, s.grid, s.grid, {"--grid", "--cascades"}, layers);
   };

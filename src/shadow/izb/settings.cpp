@@ -25,10 +25,10 @@ OptionSet IzbSettings::options() {
       "alpha", alpha, {"exact", "fragment", "off"},
       "of casters with an alpha mask: asked where each sample's line to the light meets them, once a fragment of "
       "the light-space grid, or not at all, so that they cast as opaque");
-  set.choice("raster", raster, {"auto", "gs", "hw", "compute"},
+  set.choice("raster", raster, {"gs", "hw", "compute"},
              "gs: dilate triangles in a geometry shader; hw: by the hardware's conservative rasteriser and a "
              "pass-through geometry shader, which NVIDIA GPUs have since GM204 (7); compute: walk the lists of small "
-             "triangles in a compute shader and dilate the others; auto: compute on a software renderer, else gs");
+             "triangles in a compute shader and dilate the others");
   set.integer("compute-texels", compute_texels, 0, 16384, "texels",
               "of --raster compute: triangles that may touch more are left to the geometry shader");
   set.integer("grid", grid, 16, 16384, "texels", "side of the light-space grid of lists (6.3)");
@@ -66,7 +66,6 @@ void IzbSettings::apply(const std::string& preset) {
   if (preset == "paper") {  // table 1: four cascades of 2048 x 2048, every optimisation of section 6
     sampling = {"32", "halton"};
     lut = "32";
-    raster = "gs";
     insertion = "nv";
     alpha = "fragment";
     cascades = 4;

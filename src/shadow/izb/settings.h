@@ -15,7 +15,7 @@ struct IzbSettings {
   static constexpr int by_size = -1;  ///< of pair_capacity
 
   SampleOptions sampling;
-  std::string coverage = "lut", lut = "64", insertion = "approximate", cascade_pass = "single", raster = "auto",
+  std::string coverage = "lut", lut = "64", insertion = "approximate", cascade_pass = "single", raster = "gs",
               alpha = "exact";
   int grid = 2048, nodes = 8, cascades = 1, compute_texels = 256;
   double dilation_texels = 1.0, grid_density = 4.0;
@@ -40,10 +40,6 @@ struct IzbSettings {
   bool alpha_masks() const { return alpha != "off"; }
   bool hardware() const { return raster == "hw"; }
   bool compute() const { return raster == "compute"; }
-  /// By which `auto` becomes a way: that which pays there.
-  void choose_raster(bool software) {
-    if (raster == "auto") raster = software ? "compute" : "gs";
-  }
   bool pyramid() const { return zcull && zcull_pyramid; }
   int table_side() const { return std::stoi(lut); }
   /// Slots of a pixel in the grid of nodes.
