@@ -37,7 +37,10 @@ struct ViewerTest : testing::Test {
   }
 
   void SetUp() override {
-    if (viewer && viewer->runs() && viewer->state() == first_state) return;
+    if (viewer && viewer->runs() && viewer->state() == first_state) {
+      viewer->input().key("Escape");  // messages of the case before stay for seconds
+      return;
+    }
     if (viewer && viewer->runs()) viewer->stop();
     viewer = open();
     first_state = viewer->state();
