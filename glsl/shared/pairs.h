@@ -17,7 +17,7 @@ struct Counters {
   uint carries;           // times that fragments (low 16 bits) and visibility_tests (high) have passed 32 bits
   uint stored;            // tests that were to be stored; those beyond the list's end are not (storing variant only)
   uint unstorable;        // not 0: a test's numbers do not fit in its words (storing variant only)
-  uint unused;
+  uint drawn;             // of `triangles`, those that --raster compute left to the raster pipeline (counting variant only)
 };
 
 struct UnsurePair {

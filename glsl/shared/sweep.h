@@ -23,8 +23,8 @@ struct ListedCounts {
   uint first_instance;
 };
 
-const int sweep_group = 64;      // invocations
-const int list_width = 65536;    // invocations along x that make it: no more than 65,535 groups go along one axis
+const int sweep_group = 64;    // invocations
+const int list_width = 65536;  // invocations along x that make it: no more than 65,535 groups go along one axis
 const int list_size = 1 << 19;
 // Triangles times layers at once: of each swept one the driver may end the loops, and then it is drawn, too.
 const int most_listed = list_size / 2;

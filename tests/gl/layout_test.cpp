@@ -117,7 +117,7 @@ const std::map<std::string, Block> blocks{
        FIELD("counters", Counters, triangles), FIELD("counters", Counters, removed),
        FIELD("counters", Counters, unchanged), FIELD("counters", Counters, unfinished),
        FIELD("counters", Counters, carries), FIELD("counters", Counters, stored),
-       FIELD("counters", Counters, unstorable), FIELD("counters", Counters, unused)}}},
+       FIELD("counters", Counters, unstorable), FIELD("counters", Counters, drawn)}}},
     {"ListedBlock",
      {sizeof(ListedTriangle),
       true,

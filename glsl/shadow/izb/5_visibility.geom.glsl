@@ -52,6 +52,9 @@ void spawn(Vertices v, int layer) {
 #endif
 #ifdef COUNT
   atomicAdd(counters.triangles, 1u);
+#ifdef PULL
+  atomicAdd(counters.drawn, 1u);
+#endif
 #endif
   emit(f.p0, f, v, layer);
   emit(f.p1, f, v, layer);

@@ -4,7 +4,7 @@
 // Defines: SPP32: as the test takes them; CUBE: six faces; PYRAMID: end triangles that no receiver lies behind.
 #include "shared/bindings.h"
 #include "shared/geometry.glsl"
-#include "shared/hits.h"
+#include "shared/coverage.h"
 #include "shared/sweep.h"
 
 layout(local_size_x = 64) in;

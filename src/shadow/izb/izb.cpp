@@ -222,58 +222,6 @@ void Izb::bind_lists(const Visibility& out) const {
   if (table_) glBindTextureUnit(UNIT_TABLE, table_.name());
 }
 
-// Listed as to be swept or to be drawn; swept; drawn.
-void Izb::draw_by_compute(const FrameInputs& in, IzbProgram program, Drawn drawn) {
-  if (!in.for_casters)
-    fail(
-        "--raster compute takes the triangles by their numbers, but FrameInputs::for_casters is empty: give it, or "
-        "take --raster gs");
-  const int layers = layers_of(in), instances = static_cast<int>(in.first_triangle->size());
-  const bool masked = drawn == Drawn::masked;
-  const bool culled = program != IzbProgram::visibility_counted_all;
-  const gpu::Program& list = programs_[culled ? IzbProgram::list : IzbProgram::list_all];
-  const gpu::Program &sweep = programs_.get(sweep_of(program), masked), &rest = programs_.get(program, masked);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_LISTED, listed_.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_LISTED_COUNTS, listed_counts_.name());
-  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, listed_counts_.name());
-  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, listed_counts_.name());
-  glBindVertexArray(no_attributes_.name());
-  constexpr GLbitfield stored = GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
-  in.for_casters(drawn, static_cast<uint32_t>(shared::most_listed / layers), [&](uint32_t first, uint32_t end) {
-    const shared::ListedCounts none{0, 1, 1, 0, 0, 1, 0, 0};
-    listed_counts_.update(0, sizeof none, &none);
-    glMemoryBarrier(stored);  // what the draw before has read is written again
-    list.use();
-    glUniform2ui(0, first, end);
-    glUniform1f(1, static_cast<float>(built_.dilation()));
-    glUniform1i(2, instances);
-    glUniform1i(3, built_.compute_texels);
-    const int count = static_cast<int>(end - first);
-    list.dispatch(std::min(count, shared::list_width), (count - 1) / shared::list_width + 1, 64, 1, layers);
-    glMemoryBarrier(stored | GL_COMMAND_BARRIER_BIT);
-    sweep.use();
-    glUniform1f(1, static_cast<float>(built_.dilation()));
-    glDispatchComputeIndirect(0);
-    glMemoryBarrier(stored | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    rest.use();
-    glUniform1f(1, static_cast<float>(built_.dilation()));
-    glDrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(offsetof(shared::ListedCounts, vertices)));
-  });
-}
-
-// Where the list of unsure pairs was too short: all of them, without the sweep.
-void Izb::draw_in_double(const FrameInputs& in, Drawn drawn) {
-  programs_.get(IzbProgram::visibility_in_double, drawn == Drawn::masked).use();
-  glUniform1f(1, static_cast<float>(built_.dilation()));
-  glUniform1i(4, static_cast<int>(in.first_triangle->size()));
-  glBindVertexArray(no_attributes_.name());
-  const int layers = layers_of(in);
-  in.for_casters(drawn, largest_part_triangles / static_cast<uint32_t>(layers), [&](uint32_t first, uint32_t end) {
-    glUniform1ui(5, first);
-    glDrawArraysInstanced(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * (end - first)), layers);
-  });
-}
-
 // The triangles as they are: a passthrough geometry shader makes no polygons and reaches one layer.
 void Izb::draw_by_hardware(const FrameInputs& in, IzbProgram program, Drawn drawn) {
   programs_.get(program, drawn == Drawn::masked).use();
@@ -310,13 +258,10 @@ void Izb::draw(const FrameInputs& in, const Pass& pass) {
   const bool apart = in.masked_casters && built_.alpha_masks();
   for (const Drawn drawn : apart ? std::vector{Drawn::opaque, Drawn::masked} : std::vector{Drawn::all}) {
     if (built_.compute()) {
-      if (pass.program == IzbProgram::visibility_in_double)
-        draw_in_double(in, drawn);
-      else
-        draw_by_compute(in, pass.program, drawn);
+      draw_by_compute(in, pass.program, drawn);
       continue;
     }
-    if (built_.hardware()) draw_by_hardware(in, hardware_of(pass.program), drawn);
+    if (built_.hardware()) draw_by_hardware(in, beside(pass.program).hardware, drawn);
     draw_by_footprint(in, pass.program, drawn);
   }
   glDisable(GL_DEPTH_TEST);

@@ -40,9 +40,7 @@ Counts Izb::count(const FrameInputs& in, Visibility& out, bool unculled) {
                                {"pairs_in_double", culled.pairs},
                                {"nodes_removed", culled.removed},
                                {"masks_unchanged", culled.unchanged}});
-  // Of the last ones that were listed; with masked casters or very many triangles not of all.
-  if (built_.compute())
-    counts.emplace_back("triangles_drawn", listed_counts_.read<shared::ListedCounts>(1)[0].vertices / 3);
+  if (built_.compute()) counts.emplace_back("triangles_drawn", culled.drawn);
   return counts;
 }
 

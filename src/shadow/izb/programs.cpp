@@ -34,37 +34,23 @@ bool knows_masks(IzbProgram program, const IzbSettings& settings) {
   return settings.alpha_masks() && program >= IzbProgram::visibility && program <= IzbProgram::sweep_stored;
 }
 
-IzbProgram hardware_of(IzbProgram visibility) {
+Beside beside(IzbProgram visibility) {
+  using P = IzbProgram;
   switch (visibility) {
-    case IzbProgram::visibility:
-      return IzbProgram::hardware;
-    case IzbProgram::visibility_in_double:
-      return IzbProgram::hardware_in_double;
-    case IzbProgram::visibility_tests:
-      return IzbProgram::hardware_tests;
-    case IzbProgram::visibility_fragments:
-      return IzbProgram::hardware_fragments;
-    case IzbProgram::visibility_stored:
-      return IzbProgram::hardware_stored;
+    case P::visibility:
+      return {P::hardware, P::sweep};
+    case P::visibility_in_double:
+      return {P::hardware_in_double, P::count};
+    case P::visibility_counted_all:
+      return {P::hardware_counted, P::sweep_counted_all};
+    case P::visibility_tests:
+      return {P::hardware_tests, P::sweep_tests};
+    case P::visibility_fragments:
+      return {P::hardware_fragments, P::sweep_fragments};
+    case P::visibility_stored:
+      return {P::hardware_stored, P::sweep_stored};
     default:
-      return IzbProgram::hardware_counted;
-  }
-}
-
-IzbProgram sweep_of(IzbProgram visibility) {
-  switch (visibility) {
-    case IzbProgram::visibility:
-      return IzbProgram::sweep;
-    case IzbProgram::visibility_counted_all:
-      return IzbProgram::sweep_counted_all;
-    case IzbProgram::visibility_tests:
-      return IzbProgram::sweep_tests;
-    case IzbProgram::visibility_fragments:
-      return IzbProgram::sweep_fragments;
-    case IzbProgram::visibility_stored:
-      return IzbProgram::sweep_stored;
-    default:
-      return IzbProgram::sweep_counted;
+      return {P::hardware_counted, P::sweep_counted};
   }
 }
 

@@ -47,10 +47,12 @@ enum class IzbProgram {
 /// A cube is a positional light with six grids.
 enum class LightKind { directional, positional, cube };
 
-/// What --raster hw draws before it.
-IzbProgram hardware_of(IzbProgram visibility);
-/// What --raster compute runs before it; that one takes all in double.
-IzbProgram sweep_of(IzbProgram visibility);
+/// What --raster hw draws, and --raster compute sweeps, before a variant of `visibility`; nothing is swept in double
+/// (count).
+struct Beside {
+  IzbProgram hardware, sweep;
+};
+Beside beside(IzbProgram visibility);
 /// Whether it has a variant for casters with an alpha mask.
 bool knows_masks(IzbProgram program, const IzbSettings& settings);
 

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <utility>
+
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json_text.h"
