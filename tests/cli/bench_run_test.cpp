@@ -4,6 +4,7 @@
 
 #include "app/results.h"
 #include "cli/bench_program.h"
+#include "image/png.h"
 
 namespace {
 
@@ -157,6 +158,12 @@ TEST_F(BenchRun, WritesResultsTablesAndAReport) {
   EXPECT_GT(number(flicker[1][3]), 0.0) << "the light turned, so that shadows moved";
   EXPECT_EQ(number(flicker[1][4]), 0.0);
   EXPECT_GT(number(flicker[2][4]), 0.0);
+  // Masks are compared where samples stand at the same points.
+  const json peers = read_json(out / "runs/peers/town.json")["configurations"];
+  EXPECT_GT(peers[0]["against_rays"]["bits"], 100);
+  EXPECT_LT(peers[0]["against_rays"]["differing_percent"], 10.0);
+  EXPECT_EQ(peers[1]["against_rays"]["differing_percent"], 0.0);
+  EXPECT_FALSE(peers[2].contains("against_rays"));
   const json light = read_json(out / "runs/table2/town.json")["configurations"][0]["speed_of_light"];
   EXPECT_EQ(light["same_mask"], true);
   EXPECT_EQ(light["ms"], izb::median(light["samples_ms"]));
@@ -170,6 +177,20 @@ TEST_F(BenchRun, WritesResultsTablesAndAReport) {
     for (const json& table : section["tables"]) ids.insert(out / (table["id"].get<std::string>() + ".csv"));
   const std::vector<fs::path> tables = files(".csv");
   EXPECT_EQ(std::set<fs::path>(tables.begin(), tables.end()), ids);
+}
+
+TEST_F(BenchRun, PicturesOfTheReportAreReducedByAWholeNumber) {
+  json sweeps;
+  sweeps["table1"] = small_part("times", {{{"name", "1 sample"}, {"options", {{"spp", "1"}}}}});
+  sweeps["table1"]["settings"] = {{"pictures", true}};
+  set_sweeps(sweeps);
+  const Outcome outcome = bench({"--scenes", scene("roof.glb"), "--size", "1300x650"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* word : {"picture", "tests", "lists"}) {
+    const izb::Image8 picture = izb::read_png(out / "images" / (std::string("table1-roof-") + word + ".png"));
+    EXPECT_EQ(picture.width_px, 650) << word;
+    EXPECT_EQ(picture.height_px, 325) << word;
+  }
 }
 
 TEST_F(BenchRun, ASceneWithNothingInViewIsMeasured) {
