@@ -42,7 +42,9 @@ nlohmann::json points_json(const reference::PointCheck& check) {
           {"near_cutoff", check.near_cutoff},
           {"wrong", check.wrong},
           {"max_plane_ulps", check.max_plane_ulps},
-          {"max_ray_offset_px", check.max_ray_offset_px}};
+          {"max_ray_offset_px", check.max_ray_offset_px},
+          {"lifted", check.lifted},
+          {"max_lift_px", check.max_lift_px}};
 }
 
 nlohmann::json attribution_json(const reference::Attribution& sums) {

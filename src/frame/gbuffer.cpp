@@ -51,6 +51,10 @@ gpu::ProgramSpec resolve_spec(bool micro_quads, gpu::Defines defines) {
   return {"gbuffer resolve", {"frame/1_gbuffer_resolve.comp.glsl"}, defines};
 }
 
+gpu::ProgramSpec lift_spec() {
+  return {"gbuffer lift", {"frame/1_gbuffer_lift.comp.glsl"}, {}};
+}
+
 gpu::ProgramSpec masked_spec(gpu::Defines defines) {
   defines["MASKED"] = "1";
   return {"gbuffer masked", {"frame/1_gbuffer.vert.glsl", "frame/1_gbuffer.frag.glsl"}, defines};
@@ -64,13 +68,17 @@ std::vector<gpu::ProgramSpec> GBufferStage::program_specs() {
           resolve_spec(false, {}),
           resolve_spec(true, {}),
           resolve_spec(true, windows),
+          lift_spec(),
           masked_spec({}),
           masked_spec(windows)};
 }
 
 GBufferStage::GBufferStage() : draw_(program_specs()[0]) {}
 
-void GBufferStage::resize(int width_px, int height_px, bool micro_quads, const SceneBuffers& scene) {
+void GBufferStage::resize(int width_px, int height_px, const SamplePattern& samples, const SceneBuffers& scene) {
+  const bool micro_quads = samples.count() > 1;
+  lifted_ = micro_quads && samples.lifted;
+  if (lifted_) lift_.become(lift_spec());
   const gpu::Defines geometry = scene.windows().defines();
   resolve_.become(resolve_spec(micro_quads, geometry));
   if (has_masked(scene.draw_list())) draw_masked_.become(masked_spec(geometry));
@@ -113,6 +121,11 @@ void GBufferStage::render(const SceneBuffers& scene, gpu::StageTimers& timers) {
   if (gbuffer_.micro_quad)
     glBindImageTexture(IMAGE_MICRO_QUAD, gbuffer_.micro_quad.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
   resolve_.dispatch(width_px, height_px, 16, 16);
+  if (lifted_) {
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    glBindImageTexture(IMAGE_MICRO_QUAD, gbuffer_.micro_quad.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
+    lift_.dispatch(width_px, height_px, 16, 16);
+  }
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 

@@ -31,6 +31,11 @@ glm::vec3 receiver_point_vs(const GBufferImage& image, const shared::CameraFrame
   return shared::receiver_point(camera, image.center_px(i), image.eye_distance[i]);
 }
 
+glm::vec3 quad_center_vs(const GBufferImage& image, const shared::CameraFrame& camera, size_t i) {
+  if (image.micro_quad.empty()) return receiver_point_vs(image, camera, i);
+  return shared::receiver_point(camera, image.center_px(i), image.micro_quad[i].x);
+}
+
 uint32_t pixel_class(const GBufferImage& image, const shared::CameraFrame& camera, const shared::LightFrame& light,
                      size_t i) {
   if (!(image.eye_distance[i] > 0.0f)) return shared::class_sky;

@@ -38,6 +38,8 @@ std::vector<uint32_t> read_mask(const gpu::Texture& mask);
 
 /// The receiver point of pixel i in view space, by the shaders' own text.
 glm::vec3 receiver_point_vs(const GBufferImage& image, const shared::CameraFrame& camera, size_t i);
+/// The centre of its micro-quad: the same, unless that is lifted.
+glm::vec3 quad_center_vs(const GBufferImage& image, const shared::CameraFrame& camera, size_t i);
 
 /// shared::class_... of pixel i.
 uint32_t pixel_class(const GBufferImage& image, const shared::CameraFrame& camera, const shared::LightFrame& light,

@@ -78,13 +78,18 @@ void SampleOptions::declare(OptionSet& set) {
   set.text("samples", pattern, "PATTERN|FILE",
            "where the 32 samples lie: hammersley, halton (the paper's), or a file of 32 lines 'x y' in pixels from the "
            "centre, -0.5 to 0.5");
+  set.choice("micro-quad", micro_quad, {"lifted", "tangent"},
+             "where the plane of the 32 samples lies: on the triangle that the pixel's centre sees (tangent, the "
+             "paper's), or as far above as the surface bends up within the pixel");
 }
 
 SamplePattern SampleOptions::samples() const {
   if (spp == "1") return center_sample();
-  if (pattern == "hammersley") return hammersley_samples();
-  if (pattern == "halton") return halton_samples();
-  return read_samples(pattern);
+  SamplePattern samples = pattern == "hammersley" ? hammersley_samples()
+                          : pattern == "halton"   ? halton_samples()
+                                                  : read_samples(pattern);
+  samples.lifted = micro_quad == "lifted";
+  return samples;
 }
 
 }  // namespace izb

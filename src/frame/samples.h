@@ -14,6 +14,7 @@ namespace izb {
 struct SamplePattern {
   std::string name;
   std::vector<glm::vec2> offsets_px;  ///< from the pixel's centre, x right, y up, each in [-1/2, 1/2]; 1 or 32 of them
+  bool lifted = false;                ///< the micro-quads on which they lie are lifted out of concave surfaces
   int count() const { return static_cast<int>(offsets_px.size()); }
 };
 
@@ -36,12 +37,13 @@ SamplePattern read_samples(const std::string& path);
 /// Multidimensional Sampling, 2002, with one fixed digital shift).
 glm::dvec2 pixel_shift(uint32_t frame);
 
-/// The two options that every technique with sub-pixel samples has.
+/// The options that every technique with sub-pixel samples has.
 struct SampleOptions {
   std::string spp = "32";
   std::string pattern = "hammersley";
+  std::string micro_quad = "lifted";
 
-  /// Declares `spp` and `samples`.
+  /// Declares `spp`, `samples` and `micro-quad`.
   void declare(OptionSet& set);
   /// Throws izb::Error as read_samples does.
   SamplePattern samples() const;

@@ -222,7 +222,7 @@ class Walk {
   uint64_t node_tests() const { return node_tests_; }
 
   /// Returns the triangles tested.
-  uint32_t trace(ShadowBeam& beam, uint32_t own_triangle) {
+  uint32_t trace(ShadowBeam& beam, uint32_t spared) {
     uint32_t tests = 0;
     stack_.clear();
     ++node_tests_;
@@ -232,7 +232,7 @@ class Walk {
       stack_.pop_back();
       if (entry.count != 0) {
         for (uint32_t i = 0; i < entry.count && !beam.ended(); ++i, ++tests)
-          test(beam, hierarchy_.references[entry.first + i], own_triangle);
+          test(beam, hierarchy_.references[entry.first + i], spared);
         continue;
       }
       const Hierarchy::Node& node = hierarchy_.nodes[entry.first];
@@ -251,8 +251,8 @@ class Walk {
     uint32_t first, count;
   };
 
-  void test(ShadowBeam& beam, uint32_t triangle, uint32_t own_triangle) {
-    if (triangle == own_triangle || (!holding_.empty() && holding_[triangle])) return;
+  void test(ShadowBeam& beam, uint32_t triangle, uint32_t spared) {
+    if (triangle == spared || (!holding_.empty() && holding_[triangle])) return;
     beam.test(corners(triangles_, triangle), triangle, triangles_.cutouts.get());
   }
 
@@ -292,7 +292,7 @@ BeamCount BeamTracer::trace(const LightPoint& light, const Receivers& receivers)
     for (size_t i = begin; i < end; ++i) {
       if (receivers.classes[i] != PixelClass::receiver) continue;
       ShadowBeam beam(light, receivers, i, largest_);
-      count.tests_a_pixel[i] = walk.trace(beam, receivers.own_triangle[i]);
+      count.tests_a_pixel[i] = walk.trace(beam, receivers.spared(i));
       const uint32_t bits = beam.shadowed();
       count.mask[i] = receivers.sample_count() == 1 ? (bits ? 0xFFFFFFFFu : 0u) : bits;
       ++its_pixels, its_tests += count.tests_a_pixel[i];

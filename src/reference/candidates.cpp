@@ -245,7 +245,7 @@ Candidates find_candidates(const Triangles& triangles, const LightPoint& light, 
                                              triangles.positions_vs[3 * t + 2]};
       std::optional<ShadowPlanes> planes;
       const auto consider = [&](uint32_t i) {
-        if (balls[i].own_triangle == t) return;
+        if (balls[i].spared == t) return;
         if (!planes) planes.emplace(corner, light);
         if (planes->may_touch(balls[i].center_vs, balls[i].radius)) pairs.push_back({i, static_cast<uint32_t>(t)});
       };

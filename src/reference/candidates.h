@@ -24,7 +24,7 @@ struct Candidates {
 struct Ball {
   glm::dvec3 center_vs;
   float radius;
-  uint32_t own_triangle;  ///< left out of the ball's list
+  uint32_t spared;  ///< a triangle that is left out of the ball's list
 };
 
 /// For each ball every triangle that occludes some point of it (and some that do not). Balls and triangles

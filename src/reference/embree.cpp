@@ -34,10 +34,10 @@ struct Query {
 #else
   RTCIntersectContext context;
 #endif
-  const uint32_t* own_triangle = nullptr;  // shadow rays: indexed by the ray's id
-  const uint8_t* holding = nullptr;        // shadow rays: of each triangle whether its plane holds the light; or null
-  const Cutouts* cutouts = nullptr;        // what holes the triangles have, or null
-  const glm::vec3* vertices = nullptr;     // of all triangles
+  const Receivers* receivers = nullptr;  // shadow rays: of which each has its place as the ray's id
+  const uint8_t* holding = nullptr;      // shadow rays: of each triangle whether its plane holds the light; or null
+  const Cutouts* cutouts = nullptr;      // what holes the triangles have, or null
+  const glm::vec3* vertices = nullptr;   // of all triangles
   // all_hits(): takes every hit as the ray's id and a triangle, and lets the ray go on
   std::vector<std::pair<uint32_t, uint32_t>>* all_hits = nullptr;
 
@@ -70,7 +70,7 @@ void skip_what_casts_nothing(const RTCFilterFunctionNArguments* args) {
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;  // lanes that are off hold no id
     const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
-    if (query->own_triangle[RTCRayN_id(args->ray, args->N, i)] == triangle ||
+    if (query->receivers->spared(RTCRayN_id(args->ray, args->N, i)) == triangle ||
         (query->holding && query->holding[triangle]) || passes_hole(*query, args, i, triangle))
       args->valid[i] = 0;
   }
@@ -368,7 +368,7 @@ MaskTrace RayTracer::trace_mask(const LightPoint& light, const Receivers& receiv
   result.mask.resize(count);
   const State::Holding holding = s.triangles_that_hold(light);
   Query query = s.query();
-  query.own_triangle = receivers.own_triangle.data();
+  query.receivers = &receivers;
   query.holding = holding ? holding->data() : nullptr;
   std::atomic<uint64_t> rays{0};
   const auto start = std::chrono::steady_clock::now();

@@ -204,7 +204,7 @@ std::vector<uint32_t> exact_mask(const Triangles& triangles, const LightPoint& l
       for (int s = 0; s < receivers.sample_count(); ++s) {
         const glm::dvec3 point = receivers.point(i, s);
         for (size_t t = 0; t < triangles.count(); ++t) {
-          if (t == receivers.own_triangle[i] || !occluded_exact(point, corners(triangles, t), light)) continue;
+          if (t == receivers.spared(i) || !occluded_exact(point, corners(triangles, t), light)) continue;
           if (triangles.cutouts && !triangles.cutouts->there(t, corners(triangles, t), point, way_to(light, point)))
             continue;
           mask[i] |= receivers.word_of(s);

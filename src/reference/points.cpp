@@ -254,9 +254,10 @@ struct Partial {
   void measure(const Projection& project, const Triangles& triangles, const Receivers& receivers, uint32_t pixel,
                double x, double y) {
     const glm::dvec3 p(receivers.points_vs[pixel]);
-    const glm::dvec3 on_screen = project(p);
-    raise(sums.max_ray_offset_px, sums.max_ray_offset_pixel, glm::length(glm::dvec2(on_screen) - glm::dvec2(x, y)),
-          pixel);
+    const glm::dvec3 center(receivers.center(pixel));
+    for (const glm::dvec3& seen : {p, center})
+      raise(sums.max_ray_offset_px, sums.max_ray_offset_pixel,
+            glm::length(glm::dvec2(project(seen)) - glm::dvec2(x, y)), pixel);
     // Points that get no light may stand beside their plane, e.g. on slivers seen edge-on.
     if (receivers.classes[pixel] != PixelClass::receiver || receivers.own_triangle[pixel] >= triangles.count()) return;
     const Corners own = corners(triangles, receivers.own_triangle[pixel]);
@@ -264,6 +265,14 @@ struct Partial {
     const double size = std::max({largest(p), largest(a), largest(own.b), largest(own.c)});
     raise(sums.max_plane_ulps, sums.max_plane_pixel,
           std::abs(glm::dot(across, p - a)) / glm::length(across) / float_ulp(size), pixel);
+    if (center == p) return;
+    ++sums.lifted;
+    const bool perspective = receivers.camera.perspective;
+    const double viewer = perspective ? -glm::dot(across, p) : across.z;
+    const double height = glm::dot(across, center - p) / glm::length(across) * (viewer < 0.0 ? -1.0 : 1.0);
+    const double width = receivers.camera.step.x * (perspective ? -p.z : 1.0);
+    raise(sums.max_lift_px, sums.max_lift_pixel,
+          height >= 0.0 ? height / width : std::numeric_limits<double>::infinity(), pixel);
   }
 
   void add(const Partial& other) {
@@ -275,6 +284,8 @@ struct Partial {
       sums.max_plane_ulps = o.max_plane_ulps, sums.max_plane_pixel = o.max_plane_pixel;
     if (o.max_ray_offset_px > sums.max_ray_offset_px)
       sums.max_ray_offset_px = o.max_ray_offset_px, sums.max_ray_offset_pixel = o.max_ray_offset_pixel;
+    sums.lifted += o.lifted;
+    if (o.max_lift_px > sums.max_lift_px) sums.max_lift_px = o.max_lift_px, sums.max_lift_pixel = o.max_lift_pixel;
   }
 };
 

@@ -42,8 +42,11 @@ struct PointCheck {
   double max_plane_ulps = 0.0;         ///< largest distance of a receiver from its own triangle's plane, in float ulps
                                        ///< of the largest coordinate among the point and the triangle's corners
   uint32_t max_plane_pixel = 0;
-  double max_ray_offset_px = 0.0;  ///< largest distance of a point from its pixel's ray, in pixels
+  double max_ray_offset_px = 0.0;  ///< largest distance of a point, or of a micro-quad's centre, from its pixel's ray
   uint32_t max_ray_offset_pixel = 0;
+  uint64_t lifted = 0;       ///< pixels whose micro-quad has another centre than their point
+  double max_lift_px = 0.0;  ///< the furthest of them from its tangent plane, in pixel widths; infinite for one below
+  uint32_t max_lift_pixel = 0;
 };
 
 /// Compares each pixel's point and triangle with the scene, in double; `tracer` (over the same triangles) only finds

@@ -19,7 +19,7 @@ namespace {
 double sample_error(const Triangles& triangles, const Receivers& receivers, size_t i) {
   constexpr double u = 0x1p-24;
   if (receivers.slopes.empty() || receivers.own_triangle[i] == no_triangle) return 0.0;
-  const glm::dvec3 p(receivers.points_vs[i]), n = normal(corners(triangles, receivers.own_triangle[i]));
+  const glm::dvec3 p(receivers.center(i)), n = normal(corners(triangles, receivers.own_triangle[i]));
   const glm::dvec3 ray = receivers.camera.perspective ? p : glm::dvec3(0.0, 0.0, -1.0);
   const MicroQuad quad = receivers.quad(i);
   const double grazing = glm::length(n) * glm::length(ray) / std::abs(glm::dot(n, ray));
@@ -102,7 +102,7 @@ Settled settle(const Triangles& triangles, const LightPoint& light, const Receiv
     for (uint32_t open = ours ^ receivers.bits_of(ray_mask[i]); open != 0; open &= open - 1) {
       const int s = std::countr_zero(open);
       bits.push_back({.receiver = i, .sample = static_cast<uint8_t>(s)});
-      balls.push_back({receivers.point(i, s), receivers.band[i], receivers.own_triangle[i]});
+      balls.push_back({receivers.point(i, s), receivers.band[i], receivers.spared(i)});
     }
   }
   result.disputed = bits.size();

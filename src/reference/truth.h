@@ -48,13 +48,20 @@ struct Receivers {
 
   std::vector<glm::dvec2> offsets_px{glm::dvec2(0.0)};  ///< samples, from the pixel's centre, y up; 1 or 32
   PixelSteps camera;
+  std::vector<glm::vec3> centers_vs;  ///< of the micro-quads, lifted over their tangent planes; empty: the points
   std::vector<glm::dvec2> slopes;  ///< of the tangent planes, see micro_quad.h; empty: each sample is its pixel's point
 
   size_t count() const { return points_vs.size(); }
   int sample_count() const { return static_cast<int>(offsets_px.size()); }
 
+  glm::vec3 center(size_t i) const { return centers_vs.empty() ? points_vs[i] : centers_vs[i]; }
+  /// The triangle that casts nothing on receiver i: its own, on whose plane its samples lie. Lifted over it they are on
+  /// one side of it, and with light from the other one it hides them as any other triangle.
+  uint32_t spared(size_t i) const {
+    return centers_vs.empty() || centers_vs[i] == points_vs[i] ? own_triangle[i] : no_triangle;
+  }
   MicroQuad quad(size_t i) const {
-    return slopes.empty() ? MicroQuad{points_vs[i]} : micro_quad(points_vs[i], slopes[i], camera);
+    return slopes.empty() ? MicroQuad{points_vs[i]} : micro_quad(center(i), slopes[i], camera);
   }
   /// Sample s of receiver i in view space.
   glm::dvec3 point(size_t i, int s) const { return quad(i).at(offsets_px[static_cast<size_t>(s)]); }

@@ -81,7 +81,7 @@ void Renderer::prepare(Technique& technique, int width_px, int height_px, const 
   common_ = {};  // and with it the number of what was kept
   common_.samples = technique.samples();
   const bool micro_quads = common_.samples.count() > 1;
-  gbuffer_.resize(width_px, height_px, micro_quads, *buffers_);
+  gbuffer_.resize(width_px, height_px, common_.samples, *buffers_);
   bounds_.prepare(micro_quads, technique.grid().cascades);
   samples_block_.set(make_sample_frame(common_.samples, technique.grid()));
   shade_.resize(width_px, height_px);

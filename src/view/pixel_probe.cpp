@@ -131,11 +131,11 @@ ProbedPixel probe(const Snapshot& s, std::span<const glm::vec3> triangles_vs, co
   for (const glm::vec2& o : probed.samples_px) probed.samples_tangent.push_back(tangent(glm::dvec2(o)));
 
   const LightColumn column(s.light, quad);
-  const size_t own = own_triangle(s, i);
+  const size_t spared = data.x == s.gbuffer.eye_distance[i] ? own_triangle(s, i) : unknown_triangle;  // as Receivers
   uint32_t twice = 0;  // samples that more than one hides
   for (size_t k = 0; k < triangles_vs.size() / 3; ++k) {
     const glm::vec3* v = &triangles_vs[3 * k];
-    if (k == own || column.surely_misses(v)) continue;
+    if (k == spared || column.surely_misses(v)) continue;
     const shared::QuadPlanes planes = shared::quad_planes(s.camera, s.light, v[0], v[1], v[2], at, data);
     uint32_t bits = 0;
     if (one_sample) {

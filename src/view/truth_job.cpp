@@ -25,6 +25,7 @@ reference::Receivers part_of(const reference::Receivers& all, size_t first, size
   part.width_px = all.width_px;
   part.offsets_px = all.offsets_px;
   part.camera = all.camera;
+  part.centers_vs = part_of(all.centers_vs, first, end);
   part.slopes = part_of(all.slopes, first, end);
   return part;
 }

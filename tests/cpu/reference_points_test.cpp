@@ -213,6 +213,33 @@ TEST_P(ReferencePoints, AMovedPointIsMeasured) {
   EXPECT_EQ(found.max_ray_offset_pixel, floor_pixel);
 }
 
+TEST_P(ReferencePoints, ALiftedMicroQuadIsMeasured) {
+  uint32_t floor_pixel = 0;
+  for (uint32_t i = 0; i < receivers.classes.size(); ++i)
+    if (receivers.own_triangle[i] < 2) floor_pixel = i;
+  receivers.centers_vs = receivers.points_vs;
+  receivers.camera = {glm::dvec2(GetParam() ? rays.origin_dx.x : rays.direction_dx.x), !GetParam()};
+  EXPECT_EQ(check().lifted, 0u);
+  const glm::vec3 point = receivers.points_vs[floor_pixel];
+  glm::vec3& center = receivers.centers_vs[floor_pixel];
+  const Corners own = corners(triangles, receivers.own_triangle[floor_pixel]);
+  const glm::dvec3 across = glm::normalize(normal(own));
+  for (const float way : {0.01f, -0.01f}) {
+    center = GetParam() ? point + glm::vec3(0, 0, way) : point * (1.0f - way);
+    const PointCheck found = check();
+    EXPECT_EQ(found.lifted, 1u);
+    EXPECT_EQ(found.max_lift_pixel, floor_pixel);
+    EXPECT_LE(found.max_ray_offset_px, 1e-3);
+    EXPECT_LE(found.max_plane_ulps, 1.0) << "the point is where it was";
+    const double width = receivers.camera.step.x * (GetParam() ? 1.0 : -double(point.z));
+    const double height_px = std::abs(glm::dot(across, glm::dvec3(center) - glm::dvec3(point))) / width;
+    if (way > 0.0f)
+      EXPECT_NEAR(found.max_lift_px, height_px, 1e-9);
+    else
+      EXPECT_TRUE(std::isinf(found.max_lift_px)) << "below its plane";
+  }
+}
+
 TEST_P(ReferencePoints, ATriangleMovedByLessThanTheToleranceIsNearAnEdge) {
   // Two triangles share an edge that passes 0.003 pixels (or 0.05) from the centres of a column.
   for (const double distance_px : {0.003, -0.003, 0.05}) {

@@ -20,6 +20,7 @@ TEST_F(Bars, NothingUnexplained) {
       EXPECT_LE(disputed, 1e-4 * compared) << scene;
       EXPECT_EQ(j["points"]["wrong"], 0) << scene;
       EXPECT_LT(j["points"]["max_plane_ulps"].get<double>(), 4.0) << scene;
+      EXPECT_LT(j["points"]["max_lift_px"].get<double>(), 0.501) << scene;
     }
 }
 

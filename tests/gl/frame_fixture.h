@@ -238,7 +238,7 @@ inline std::vector<uint32_t> brute_force_words(const Frame& frame) {
     if (frame.receivers.classes[i] != reference::PixelClass::receiver) continue;
     const glm::ivec2 px(frame.gbuffer.center_px(i));
     for (size_t k = 0; k < frame.triangles_vs.size() / 3; ++k) {
-      if (k == frame.receivers.own_triangle[i]) continue;
+      if (k == frame.receivers.spared(i)) continue;
       const glm::vec3* v = &frame.triangles_vs[3 * k];
       const shared::QuadPlanes planes =
           shared::quad_planes(in.camera, in.light, v[0], v[1], v[2], px, frame.gbuffer.micro_quad[i]);

@@ -57,6 +57,7 @@ TEST_P(Scenes, NoBitIsUnexplainedAndBothContextsAgree) {
   EXPECT_EQ(egl["points"]["wrong"], 0);
   // A few ulps: the receiver point is rounded once, its coordinates once more.
   EXPECT_LT(egl["points"]["max_plane_ulps"], 4.0);
+  EXPECT_LT(egl["points"]["max_lift_px"], 0.501);
   EXPECT_GT(egl["compared"], 1000);
   // 10^-4 is the bar at 1920 x 1080; the plane's bias is a share of a pixel, and a pixel is four times as wide here.
   EXPECT_LE(egl["disputed"].get<double>(), std::max(3.0, 4e-4 * egl["compared"].get<double>()));

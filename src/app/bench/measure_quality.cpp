@@ -127,7 +127,8 @@ Judged judge(Subject& s, const Truth& truth, const DisplayImage& truth_display, 
 }
 
 bool same_points(const Subject& a, const Subject& b) {
-  return a.technique->samples().offsets_px == b.technique->samples().offsets_px;
+  const SamplePattern its = a.technique->samples(), theirs = b.technique->samples();
+  return its.offsets_px == theirs.offsets_px && its.lifted == theirs.lifted;
 }
 
 /// Bits that two masks of 32 samples at the same places do not share.

@@ -64,7 +64,7 @@ std::vector<std::string> IzbSettings::preset_names() {
 
 void IzbSettings::apply(const std::string& preset) {
   if (preset == "paper") {  // table 1: four cascades of 2048 x 2048, every optimisation of section 6
-    sampling = {"32", "halton"};
+    sampling = {"32", "halton", "tangent"};
     lut = "32";
     insertion = "nv";
     alpha = "fragment";

@@ -16,13 +16,15 @@ void for_each_pixel(size_t count, Body&& body) {
   });
 }
 
-/// The samples' offsets and the tangent planes of the pixels' own triangles, all in double.
-void add_samples(reference::Receivers& receivers, const FrameInputs& in) {
+/// The micro-quads' centres, the samples' offsets, and the tangent planes of the pixels' own triangles in double.
+void add_samples(reference::Receivers& receivers, const GBufferImage& image, const FrameInputs& in) {
   receivers.offsets_px.assign(in.samples.offsets_px.begin(), in.samples.offsets_px.end());
   receivers.camera = {glm::dvec2(in.camera.pixel_ray), shared::is_perspective(in.camera)};
   const std::vector<glm::vec3>& vertices = in.triangles_vs();
+  receivers.centers_vs.resize(receivers.count());
   receivers.slopes.assign(receivers.count(), glm::dvec2(0.0));
   for_each_pixel(receivers.count(), [&](size_t i) {
+    receivers.centers_vs[i] = quad_center_vs(image, in.camera, i);
     if (receivers.own_triangle[i] == reference::no_triangle) return;
     const glm::vec3* v = &vertices[3 * size_t(receivers.own_triangle[i])];
     receivers.slopes[i] =
@@ -48,7 +50,7 @@ reference::Receivers make_receivers(const GBufferImage& image, const FrameInputs
     if (image.id[i].x != 0) receivers.own_triangle[i] = (*in.first_triangle)[image.id[i].x - 1] + image.id[i].y;
   });
   // The only sample of a pattern of one is the receiver point itself.
-  if (in.samples.count() > 1) add_samples(receivers, in);
+  if (in.samples.count() > 1) add_samples(receivers, image, in);
   return receivers;
 }
 
