@@ -231,10 +231,10 @@ TEST_P(ReferencePoints, ALiftedMicroQuadIsMeasured) {
     EXPECT_EQ(found.max_lift_pixel, floor_pixel);
     EXPECT_LE(found.max_ray_offset_px, 1e-3);
     EXPECT_LE(found.max_plane_ulps, 1.0) << "the point is where it was";
-    const double width = receivers.camera.step.x * (GetParam() ? 1.0 : -double(point.z));
-    const double height_px = std::abs(glm::dot(across, glm::dvec3(center) - glm::dvec3(point))) / width;
+    const double step = receivers.camera.step.x * (GetParam() ? 1.0 : -double(point.z));
+    const double lift_px = std::abs(glm::dot(across, glm::dvec3(center) - glm::dvec3(point))) / step;
     if (way > 0.0f)
-      EXPECT_NEAR(found.max_lift_px, height_px, 1e-9);
+      EXPECT_NEAR(found.max_lift_px, lift_px, 1e-9);
     else
       EXPECT_TRUE(std::isinf(found.max_lift_px)) << "below its plane";
   }
