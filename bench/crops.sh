@@ -15,27 +15,14 @@ of the masks differ, also between izb with --preset exact and the rays. Takes a 
 TEXT
 }
 
-# shellcheck source=bench/picture.sh
-source "$(dirname "${BASH_SOURCE[0]}")/picture.sh"
-cmake --build build/release --target izb_garden izb_crops >&2
-frames=$(mktemp -d)
-trap 'rm -rf "$frames"' EXIT
+# shellcheck source=bench/garden_frames.sh
+source "$(dirname "${BASH_SOURCE[0]}")/garden_frames.sh"
+frame izb_1 320x180 --viewpoint garden.crops --technique izb --spp 1
+frame izb_32 320x180 --viewpoint garden.crops --technique izb --spp 32
+frame ray_traced_32 320x180 --viewpoint garden.crops --technique ray_traced --spp 32
+frame izb_exact_32 320x180 --viewpoint garden.crops --technique izb --preset exact --spp 32
+frame supersampled 2560x1440 --viewpoint garden.crops --technique ray_traced --spp 32
 
-# frame NAME SIZE OPTION...
-frame() {
-  local name=$1 size=$2
-  shift 2
-  echo "crops.sh: $name" >&2
-  build/release/izb render build/release/assets/garden.glb --viewpoint garden.crops --size "$size" "$@" \
-    -o "$frames/$name.exr" >/dev/null
-}
-frame izb_1 320x180 --technique izb --spp 1
-frame izb_32 320x180 --technique izb --spp 32
-frame ray_traced_32 320x180 --technique ray_traced --spp 32
-frame izb_exact_32 320x180 --technique izb --preset exact --spp 32
-frame supersampled 2560x1440 --technique ray_traced --spp 32
-
-crops=$PWD/build/release/bench/izb_crops
 cd "$frames"
 "$crops" izb_exact_32.exr ray_traced_32.exr --crop 116,48,96,76
 "$crops" izb_1.exr izb_32.exr ray_traced_32.exr supersampled.exr --crop 116,48,96,76 --magnify 4 -o "$picture"

@@ -14,23 +14,11 @@ OUT.png (default out/lift.png), and prints how many bits of the masks differ. Ta
 TEXT
 }
 
-# shellcheck source=bench/picture.sh
-source "$(dirname "${BASH_SOURCE[0]}")/picture.sh"
-cmake --build build/release --target izb_garden izb_crops >&2
-frames=$(mktemp -d)
-trap 'rm -rf "$frames"' EXIT
+# shellcheck source=bench/garden_frames.sh
+source "$(dirname "${BASH_SOURCE[0]}")/garden_frames.sh"
+frame tangent 960x540 --camera main --micro-quad tangent
+frame lifted 960x540 --camera main
+frame supersampled 3840x2160 --camera main --technique ray_traced
 
-# frame NAME SIZE OPTION...
-frame() {
-  local name=$1 size=$2
-  shift 2
-  echo "lift.sh: $name" >&2
-  build/release/izb render build/release/assets/garden.glb --camera main --size "$size" "$@" -o "$frames/$name.exr" >/dev/null
-}
-frame tangent 960x540 --micro-quad tangent
-frame lifted 960x540
-frame supersampled 3840x2160 --technique ray_traced
-
-crops=$PWD/build/release/bench/izb_crops
 cd "$frames"
 "$crops" tangent.exr lifted.exr supersampled.exr --crop 180,180,120,90 --magnify 3 -o "$picture"

@@ -112,13 +112,6 @@ TEST(Lift, TheMaskIsThatOfRaysFromTheLiftedPoints) {
   }
 }
 
-TEST(Lift, WhatFacesAwayIsInTheShadowOfItsOwnTriangle) {
-  const Scene scene = folds(0.2f, 0.06f);
-  const Frame frame = render_frame(scene, camera, sun(90, 8), width_px, height_px, with(lifted, {{"nl-cull", "off"}}));
-  EXPECT_EQ(different(frame.mask, brute_force_words(frame)), 0u);
-  expect_explained(frame);
-}
-
 TEST(Lift, FlatFloorsAndRoofsStayWhereTheyAre) {
   Scene flat = empty_scene();
   add_soup(flat, floor_of(10.0f, 60), glm::rotate(glm::dmat4(1.0), 0.3, glm::dvec3(1.0, 2.0, 0.5)));
