@@ -112,6 +112,21 @@ TEST(Lift, TheMaskIsThatOfRaysFromTheLiftedPoints) {
   }
 }
 
+TEST(Lift, WhatFacesAwayIsInTheShadowOfItsOwnTriangle) {
+  const Scene scene = folds(0.2f, 0.03f);
+  for (const char* raster : {"gs", "compute"}) {
+    const Settings settings = with(lifted, {{"nl-cull", "off"}, {"raster", raster}});
+    const Frame frame = render_frame(scene, camera, sun(130, -60), width_px, height_px, settings);
+    EXPECT_GT(lifted_pixels(frame), 500u);
+    EXPECT_EQ(different(frame.mask, brute_force_words(frame)), 0u) << raster;
+    expect_explained(frame);
+    Frame by_table =
+        render_frame(scene, camera, sun(130, -60), width_px, height_px, with(settings, {{"coverage", "lut"}}));
+    for (size_t i = 0; i < frame.mask.size(); ++i) by_table.mask[i] ^= frame.mask[i];
+    EXPECT_LT(bits(by_table.mask), bits(frame.mask) / 100) << "all but what the table quantises";
+  }
+}
+
 TEST(Lift, FlatFloorsAndRoofsStayWhereTheyAre) {
   Scene flat = empty_scene();
   add_soup(flat, floor_of(10.0f, 60), glm::rotate(glm::dmat4(1.0), 0.3, glm::dvec3(1.0, 2.0, 0.5)));

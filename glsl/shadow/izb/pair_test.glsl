@@ -16,6 +16,9 @@ layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
 layout(std430, binding = BIND_COUNTERS) buffer CounterBlock { Counters counters; };
 layout(std430, binding = BIND_PAIRS) writeonly buffer PairBlock { UnsurePair pairs[]; };
 layout(binding = UNIT_ID) uniform usampler2D id_texture;
+#ifdef SPP32
+layout(binding = UNIT_EYE_DISTANCE) uniform sampler2D eye_distance_texture;
+#endif
 
 #ifdef SPP32
 #define Planes QuadTriangle
@@ -61,8 +64,13 @@ Triangle make_triangle(CameraFrame eye, vec3 a, vec3 b, vec3 c, Cutout cutout) {
 #endif
 
 // A receiver's own triangle, the commonest that single precision cannot decide, lies within the bias of its plane and never
-// occludes it.
-bool is_to_settle(ivec2 px, uvec2 id) { return texelFetch(id_texture, px, 0).xy != id; }
+// occludes it; but a lifted micro-quad's does where light comes from behind.
+bool is_to_settle(ivec2 px, uvec2 id) {
+#ifdef SPP32
+  if (texelFetch(micro_quad_texture, px, 0).x != texelFetch(eye_distance_texture, px, 0).x) return true;
+#endif
+  return texelFetch(id_texture, px, 0).xy != id;
+}
 
 void add_pair(ivec2 px, uvec2 id) {
   if (!is_to_settle(px, id)) return;
