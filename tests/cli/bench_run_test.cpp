@@ -233,6 +233,21 @@ TEST_F(BenchRun, ABadSceneIsARowAndTheOthersAreThere) {
   EXPECT_EQ(files(".json").size(), 4u);
 }
 
+TEST_F(BenchRun, AConfigurationThatCannotBeMeasuredIsSaid) {
+  json sweeps;
+  sweeps["table1"] = small_part("times", {{{"name", "1 sample"}, {"options", {{"spp", "1"}}}},
+                                          {{"name", "too large"}, {"options", {{"grid", "16384"}}}}});
+  set_sweeps(sweeps);
+  const Outcome outcome =
+      run_program(words({"--scenes", scene("roof.glb")}), {{{"IZB_MEMORY_BYTES", "1000000000"}}, false});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(outcome.says("1 configuration could not be measured: the report says why")) << outcome.err;
+  expect_whole();
+  const json both = read_json(out / "runs/table1/roof.json")["configurations"];
+  EXPECT_TRUE(both[0].contains("frame_ms"));
+  EXPECT_TRUE(both[1].contains("failed"));
+}
+
 TEST_F(BenchRun, SaysWhatItWouldDoWithoutDoingIt) {
   const Outcome outcome = run_program({"env", "-C", folder / "", program, "bench", "all", "--list"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;

@@ -110,14 +110,18 @@ int run_bench(BenchOptions& o) {
   catch_interrupts();
   const std::vector<Measured> all = run_jobs(jobs, o.run, made, report);
   report(all);
-  const auto failed = std::count_if(all.begin(), all.end(), [](const Measured& m) { return !m.works(); });
+  size_t failed = 0, configurations = 0;
+  for (const Measured& m : all) failed += !m.works(), configurations += m.failed_configurations();
   if (interrupted()) {
     note("interrupted: '{}' holds what was measured; --resume goes on", o.output);
     return 1;
   }
   fmt::print("wrote {}\n", (o.run.folder / "report.html").string());
   if (failed > 0) note("{} of {} jobs failed: the report says why", failed, all.size());
-  return failed > 0 ? 1 : 0;
+  if (configurations > 0)
+    note("{} configuration{} could not be measured: the report says why", configurations,
+         configurations == 1 ? "" : "s");
+  return failed + configurations > 0 ? 1 : 0;
 }
 
 }  // namespace

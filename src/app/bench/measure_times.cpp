@@ -92,7 +92,7 @@ void measure_animation(const Job& job, Subjects& subjects, const std::filesystem
     subjects.round(false);
   } else {
     for (Subject& s : subjects.all())
-      if (s.works()) s.failed = "the scene has no animation";
+      if (s.works()) s.failed = "the scene has no animation", s.inapplicable = true;
   }
   Progress progress(job.experiment + " " + job.scene.name, uint64_t(job.frames));
   for (int i = 0; i < job.frames && subjects.session().plays; ++i) {

@@ -186,6 +186,16 @@ std::string Measured::reason() const {
   return result.value("failed", "");
 }
 
+size_t Measured::failed_configurations() const {
+  if (!works()) return 0;
+  const json all = result.value("configurations", json::array());
+  return static_cast<size_t>(std::count_if(all.begin(), all.end(), [](const json& c) {
+    const auto items = c.items();
+    return !c.contains("inapplicable") &&
+           std::any_of(items.begin(), items.end(), [](const auto& item) { return item.key().ends_with("failed"); });
+  }));
+}
+
 fs::path result_path(const Job& job, const fs::path& folder) {
   std::string name = job.part.empty() ? "" : short_word(job.part) + ".";
   name += file_word(job.scene.name);

@@ -17,6 +17,8 @@ struct Measured {
   bool works() const { return result.is_object() && !result.contains("failed"); }
   /// Why there is no result.
   std::string reason() const;
+  /// Configurations of a result of which something could not be measured.
+  size_t failed_configurations() const;
 };
 
 struct RunOptions {

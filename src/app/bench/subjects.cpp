@@ -125,6 +125,7 @@ nlohmann::json Subjects::results(bool counted) {
         result = description(s);
       }
     if (!s.works()) result["failed"] = s.failed;
+    if (s.inapplicable) result["inapplicable"] = true;
     list.push_back(std::move(result));
   }
   return list;

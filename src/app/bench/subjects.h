@@ -24,6 +24,7 @@ struct Subject {
   std::vector<double> frame_ms;
   std::vector<double> started_ms;  ///< when each began, since the subjects were there
   std::string failed;              ///< one sentence; empty: it works
+  bool inapplicable = false;       ///< `failed` says why there is nothing to measure, and nothing is wrong
 
   bool works() const { return failed.empty(); }
 };
@@ -48,7 +49,7 @@ class Subjects {
 
   /// Of each configuration: `name`, `technique`, `preset`, `options` (all), `size`, `notes`, `stages` with samples,
   /// `frame_ms`, `frame_samples`, `frame_started_ms` (all where frames were timed), and with `counted` what
-  /// add_statistics() and memory_json() say, and `mask_hash`; or `failed`.
+  /// add_statistics() and memory_json() say, and `mask_hash`; or `failed`, and `inapplicable` if it is.
   nlohmann::json results(bool counted);
 
  private:
