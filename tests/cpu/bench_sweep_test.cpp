@@ -272,11 +272,25 @@ TEST_F(BenchSweep, ATruthIsOfOneSceneViewAndSize) {
   EXPECT_TRUE(differs([](Job& j) { j.scene.sha256 = "1"; }));
   EXPECT_TRUE(differs([](Job& j) { j.scene.file = "/elsewhere.glb"; }));
   EXPECT_TRUE(differs([](Job& j) { j.scene.frame["camera"] = "other"; }));
-  const std::vector<std::string> words = truth_command(job, "f");
-  const auto after = [&](const std::string& word) { return *(std::find(words.begin(), words.end(), word) + 1); };
-  EXPECT_EQ(after("--supersample"), "4");
-  EXPECT_EQ(after("--size"), "256x128");
+}
+
+TEST_F(BenchSweep, ATruthsFramesAreLargeWhereTheyMayBe) {
+  part["settings"] = {{"truth_rays", 64}};
+  Job job = plan_of_scenes({"town"}).at(0);
+  const auto after = [&](const std::string& word) {
+    const std::vector<std::string> words = truth_command(job, "f");
+    return *(std::find(words.begin(), words.end(), word) + 1);
+  };
   EXPECT_EQ(after("--camera"), "main");
+  EXPECT_EQ(after("--size"), "512x256");
+  EXPECT_EQ(after("--supersample"), "1");
+  job.settings["truth_rays"] = 32;
+  EXPECT_EQ(after("--size"), "256x128");
+  EXPECT_EQ(after("--supersample"), "2");
+  job.settings["truth_rays"] = 128;
+  job.size = "640x360";
+  EXPECT_EQ(after("--size"), "2560x1440");
+  EXPECT_EQ(after("--supersample"), "8");
 }
 
 }  // namespace

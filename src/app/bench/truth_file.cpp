@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/truth_file.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/sha256.h"
@@ -12,13 +14,16 @@ namespace izb::bench {
 
 namespace {
 
-/// The truth's frames are so many times as wide and high, and box-filtered: a frame's vertices then serve 16 rays a
-/// pixel.
-constexpr int truth_scale = 4;
+/// The truth's frames are so many times as wide and high, and box-filtered: a frame's vertices then serve 64 rays a
+/// pixel, or 16 where that picture would be large or the rays too few.
+int truth_scale(const Job& job) {
+  const Size size = parse_size(job.size);
+  return truth_rays(job) % 64 == 0 && 8 * std::max(size.width_px, size.height_px) <= 4096 ? 8 : 4;
+}
 
 Size truth_size(const Job& job) {
   const Size size = parse_size(job.size);
-  return {truth_scale * size.width_px, truth_scale * size.height_px};
+  return {truth_scale(job) * size.width_px, truth_scale(job) * size.height_px};
 }
 
 }  // namespace
@@ -39,7 +44,7 @@ std::filesystem::path truth_path(const Job& job, const std::filesystem::path& fo
 
 std::vector<std::string> truth_command(const Job& job, const std::filesystem::path& folder) {
   const Size size = truth_size(job);
-  const int frames = truth_rays(job) / (truth_scale * truth_scale);
+  const int frames = truth_rays(job) / (truth_scale(job) * truth_scale(job));
   std::vector<std::string> words{"render",
                                  job.scene.file,
                                  "--technique",
@@ -70,7 +75,7 @@ Truth read_truth(const Job& job, const std::filesystem::path& folder) {
   if (large.width_px != size.width_px || large.height_px != size.height_px)
     fail("'{}' has {} x {} pixels, not {} x {}", path.string(), large.width_px, large.height_px, size.width_px,
          size.height_px);
-  const Image image = box_filter(large, truth_scale);
+  const Image image = box_filter(large, truth_scale(job));
   Truth truth;
   truth.width_px = image.width_px, truth.height_px = image.height_px, truth.rays = truth_rays(job);
   truth.surface = image.floats("surface");
