@@ -16,6 +16,9 @@ struct Footprint {
   vec3 p2;
   vec3 p3;
   int count;  // corners: 0 (nothing), 3 or 4
+  // The depth at a texel's centre, by depth_at: at most the triangle's anywhere in the square that is swept over it.
+  vec3 base;
+  vec2 slope;
   // Half the side of the square that a rasteriser must sweep over the bare triangle to do without the polygon; without
   // bounds where that must not be left to it.
   float square;
@@ -52,6 +55,8 @@ SHARED Footprint make_footprint(IN(LightFrame) light, IN(LightWindow) window, IN
   f.p1 = vec3(0.0f);
   f.p2 = vec3(0.0f);
   f.p3 = vec3(0.0f);
+  f.base = vec3(0.0f);
+  f.slope = vec2(0.0f);
   float side = window.guard.y;
   // A triangle with two equal vertices casts nothing; nor does any before there is a receiver.
   if (a == b || b == c || c == a || window.guard.y == 0.0f) return f;
@@ -179,6 +184,8 @@ SHARED Footprint make_footprint(IN(LightFrame) light, IN(LightWindow) window, IN
   f.p1 = vec3(q1.x, q1.y, depth_at(base, slope, q1.x, q1.y));
   f.p2 = vec3(q2.x, q2.y, depth_at(base, slope, q2.x, q2.y));
   f.p3 = vec3(q3.x, q3.y, depth_at(base, slope, q3.x, q3.y));
+  f.base = base;
+  f.slope = slope;
   f.count = take_shifted ? 3 : 4;
   return f;
 }

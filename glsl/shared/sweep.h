@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: MIT
-// What --raster compute sorts the triangles into: those that a compute shader sweeps, each for one layer, from the list's
-// begin on, and those that the raster pipeline draws, from its end on backwards.
+// What --raster compute sorts the triangles into: those that a compute shader sweeps, each for one layer, and those that the
+// raster pipeline draws. Lanes wait for the one with most to do, so that a sweep goes on for some rounds only: what is not
+// done then is listed once more, and the next dispatch has full lanes again.
 #ifndef IZB_SHARED_SWEEP_H
 #define IZB_SHARED_SWEEP_H
 #include "shared/footprint.h"
+#include "shared/lists.h"
 SHARED_BEGIN
 
 struct ListedTriangle {
   uint instance;
   uint triangle_and_layer;  // 16 bits each; no part of a draw list has more triangles
+  uint texels;              // of its footprint that the sweep has come to
+  uint node;                // where the walk over the last one's list goes on
 };
 
-// How many there are: as glDispatchComputeIndirect and, from `vertices` on, glDrawArraysIndirect read it.
+const int sweep_parts = 7;
+
+// How many there are.
 struct ListedCounts {
-  uint groups;
-  uint groups_y;
-  uint groups_z;
-  uint swept;
-  uint vertices;
+  uvec4 part[8];  // of the sweep, as glDispatchComputeIndirect reads it: x: groups; w: triangles; the last part stays empty
+  uint vertices;  // from here on as glDrawArraysIndirect reads it
   uint draw_instances;
   uint first_vertex;
   uint first_instance;
@@ -25,14 +28,25 @@ struct ListedCounts {
 
 const int sweep_group = 64;    // invocations
 const int list_width = 65536;  // invocations along x that make it: no more than 65,535 groups go along one axis
-const int list_size = 1 << 19;
-// Triangles times layers at once: of each swept one the driver may end the loops, and then it is drawn, too.
-const int most_listed = list_size / 2;
+// Triangles times layers at once. The list has room for a part's, for the next part's, and for the drawn ones, since of each
+// that is swept the driver may end the loops.
+const int most_listed = 1 << 18;
+const int list_size = 3 * most_listed;
+
+// What part k of the sweep reads, and part k - 1 writes, begins there.
+SHARED uint part_entry(int k) { return uint((k & 1) * most_listed); }
+
+// After how many rounds a part ends, twice as many as the one before; the last one ends none.
+SHARED int part_rounds(int k, int parts, int first_rounds) {
+  return k == parts - 1 ? 0x7fffffff : first_rounds << k;
+}
 
 SHARED ListedTriangle make_listed(uint instance, uint triangle, int layer) {
   ListedTriangle t;
   t.instance = instance;
   t.triangle_and_layer = triangle | (uint(layer) << 16);
+  t.texels = 0u;
+  t.node = no_node;
   return t;
 }
 

@@ -40,8 +40,8 @@ void main() {
   bool bounded = f.box.x < f.box.z && f.box.y < f.box.w;  // no NaN
   ListedTriangle entry = make_listed(instance, number, layer);
   if (bounded && texel_count(texels_within(f, windows[layer].guard.y)) <= most_texels) {
-    uint i = atomicAdd(counts.swept, 1u);
-    if (i % uint(sweep_group) == 0u) atomicAdd(counts.groups, 1u);
+    uint i = atomicAdd(counts.part[0].w, 1u);
+    if (i % uint(sweep_group) == 0u) atomicAdd(counts.part[0].x, 1u);
     listed[i] = entry;
   } else {
     listed[drawn_entry(atomicAdd(counts.vertices, 3u) / 3u)] = entry;

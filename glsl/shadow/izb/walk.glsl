@@ -1,8 +1,8 @@
 // The walk over lists, for fragments (5_visibility.frag.glsl) and for invocations that have a triangle each
 // (5_visibility.comp.glsl): tests each listed pixel against the triangle, and adds shadow to its mask.
-// Defines, beside those of pair_test.glsl: PIPELINE: fetch one node ahead (6.8); SWEEP: over the lists of many texels;
-// COUNT: count fragments and tests, ZCULL: but for a sweep's empty lists; COUNT_TESTS, COUNT_FRAGMENTS: also those of each pixel,
-// of each texel; STORE_TESTS: store each test for 5_visibility_speed_of_light.comp.glsl.
+// Defines, beside those of pair_test.glsl: PIPELINE: fetch one node ahead (6.8); SWEEP: over the lists of many texels, ZCULL: but
+// for those that the triangle lies behind; COUNT: count fragments and tests; COUNT_TESTS, COUNT_FRAGMENTS: also those of each
+// pixel, of each texel; STORE_TESTS: store each test for 5_visibility_speed_of_light.comp.glsl.
 #include "shadow/izb/pair_test.glsl"
 
 #ifdef COUNT_TESTS
@@ -38,9 +38,13 @@ struct Walk {
   Receiver previous;
   uint node;  // where to go on
 #ifdef SWEEP
+  int rounds;    // that are left
   int texels;    // that are left
   ivec4 box;     // first and last of all
   vec3 edge[4];  // of the footprint, within which none is negative
+  vec3 base;     // of its depth
+  vec2 slope;
+  bool resumed;  // within a list, whose node before is not known
 #endif
   uint fragments;
   uint tests;
@@ -56,6 +60,7 @@ Walk begin_walk(ivec3 texel) {
   w.fragments = w.tests = w.removed = w.unchanged = 0u;
 #ifdef SWEEP
   w.texels = 0;
+  w.resumed = false;
 #endif
   return w;
 }
@@ -77,7 +82,19 @@ bool goes_on(Walk w) {
 #endif
 }
 
+bool has_rounds(Walk w) {
 #ifdef SWEEP
+  return w.rounds > 0;
+#else
+  return true;
+#endif
+}
+
+#ifdef SWEEP
+#ifdef ZCULL
+layout(binding = UNIT_FURTHEST) uniform usampler2DArray furthest;
+#endif
+
 // Goes to the next texel, and if it is in the footprint to the head of its list.
 void next_texel(Triangle triangle, inout Walk w) {
   --w.texels;
@@ -87,15 +104,17 @@ void next_texel(Triangle triangle, inout Walk w) {
   float inside = min(min(dot(w.edge[0], center), dot(w.edge[1], center)),
                      min(dot(w.edge[2], center), dot(w.edge[3], center)));
   if (inside < 0.0) return;
-  uint head = load_head(w.texel);
 #ifdef ZCULL
-  if (head == no_node) return;
+  float depth = depth_at(w.base, w.slope, center.x, center.y);
+  if (max(depth, 0.0) >= uintBitsToFloat(texelFetch(furthest, w.texel, 0).x)) return;
 #endif
+  uint head = load_head(w.texel);
 #ifdef ALPHA_FRAGMENT
   if (is_hole(triangle, w.texel)) return;
 #endif
   count_fragment(w);
   w.previous.node = no_node;
+  w.resumed = false;
   w.node = head;
 }
 #endif
@@ -106,8 +125,9 @@ bool walk(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, out ivec2 
 #ifdef PIPELINE
   Receiver ahead = load_receiver(w.node);
 #endif
-  while (goes_on(w) && !unsure) {
+  while (goes_on(w) && has_rounds(w) && !unsure) {
 #ifdef SWEEP
+    --w.rounds;
     // In the same loop: with one of its own, all lanes would wait for the one that skips most.
     if (w.node == no_node) next_texel(triangle, w);
     if (w.node == no_node) continue;
@@ -122,11 +142,17 @@ bool walk(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, out ivec2 
     px = r.px;
 #ifdef REMOVAL
     if (imageLoad(mask, px).x == 0xffffffffu) {
+#ifdef SWEEP
+      if (w.resumed) continue;
+#endif
       unlink_after(w.previous, w.texel, r.next);
       ++w.removed;
       continue;
     }
     w.previous = r;
+#ifdef SWEEP
+    w.resumed = false;
+#endif
 #endif
     ++w.tests;
 #ifdef COUNT_TESTS

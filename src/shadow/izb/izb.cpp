@@ -218,6 +218,7 @@ void Izb::bind_lists(const Visibility& out) const {
   glBindImageTexture(IMAGE_MASK, out.mask.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_COUNTERS, counters_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIND_PAIRS, pairs_.name());
+  if (furthest_) glBindTextureUnit(UNIT_FURTHEST, furthest_.name());
   if (pyramid_) glBindTextureUnit(UNIT_PYRAMID, pyramid_.name());
   if (table_) glBindTextureUnit(UNIT_TABLE, table_.name());
 }

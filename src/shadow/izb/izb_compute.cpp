@@ -10,7 +10,7 @@
 
 namespace izb {
 
-// Listed as to be swept or to be drawn; swept; drawn.
+// Listed as to be swept or to be drawn; swept, part by part; drawn.
 void Izb::draw_by_compute(const FrameInputs& in, IzbProgram program, Drawn drawn) {
   if (!in.for_casters)
     fail(
@@ -29,7 +29,9 @@ void Izb::draw_by_compute(const FrameInputs& in, IzbProgram program, Drawn drawn
   glBindVertexArray(no_attributes_.name());
   constexpr GLbitfield stored = GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
   in.for_casters(drawn, static_cast<uint32_t>(shared::most_listed / layers), [&](uint32_t first, uint32_t end) {
-    const shared::ListedCounts none{0, 1, 1, 0, 0, 1, 0, 0};
+    shared::ListedCounts none{};
+    for (glm::uvec4& part : none.part) part = {0, 1, 1, 0};
+    none.draw_instances = 1;
     listed_counts_.update(0, sizeof none, &none);
     glMemoryBarrier(stored);  // what the draw before has read is written again
     list.use();
@@ -42,8 +44,14 @@ void Izb::draw_by_compute(const FrameInputs& in, IzbProgram program, Drawn drawn
     glMemoryBarrier(stored | GL_COMMAND_BARRIER_BIT);
     sweep.use();
     glUniform1f(1, static_cast<float>(built_.dilation()));
-    glDispatchComputeIndirect(0);
-    glMemoryBarrier(stored | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    const int parts = built_.compute_rounds > 0 ? shared::sweep_parts : 1;
+    for (int part = 0; part < parts; ++part) {
+      glUniform1i(2, part);
+      glUniform1i(3, shared::part_rounds(part, parts, built_.compute_rounds));
+      glUniform1i(4, part == parts - 1);
+      glDispatchComputeIndirect(static_cast<GLintptr>(sizeof none.part[0]) * part);
+      glMemoryBarrier(stored | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    }
     rest.use();
     glUniform1f(1, static_cast<float>(built_.dilation()));
     glDrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(offsetof(shared::ListedCounts, vertices)));

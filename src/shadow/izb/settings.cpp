@@ -31,6 +31,10 @@ OptionSet IzbSettings::options() {
              "triangles in a compute shader and dilate the others");
   set.integer("compute-texels", compute_texels, 0, 16384, "texels",
               "of --raster compute: triangles that may touch more are left to the geometry shader");
+  set.integer(
+      "compute-rounds", compute_rounds, 0, 512, "rounds",
+      "of --raster compute: after so many tests and texels a triangle's sweep goes on in another dispatch, and after "
+      "twice as many in the next one, so that lanes do not wait for long ones; 0: in one go");
   set.integer("grid", grid, 16, 16384, "texels", "side of the light-space grid of lists (6.3)");
   set.number("grid-density", grid_density, 0.0, 1000.0, "texels a receiver",
              "a grid whose window holds few receivers uses no more texels than that for each, since small texels only "

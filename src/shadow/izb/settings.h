@@ -17,7 +17,7 @@ struct IzbSettings {
   SampleOptions sampling;
   std::string coverage = "lut", lut = "64", insertion = "approximate", cascade_pass = "single", raster = "gs",
               alpha = "exact";
-  int grid = 2048, nodes = 8, cascades = 1, compute_texels = 256;
+  int grid = 2048, nodes = 8, cascades = 1, compute_texels = 256, compute_rounds = 64;
   double dilation_texels = 1.0, grid_density = 4.0;
   bool zcull = true, zcull_pyramid = true, nl_cull = true;
   bool removal = true, unchanged_skip = true, pipelining = false;
