@@ -19,7 +19,7 @@ const int sweep_parts = 7;
 
 // How many there are.
 struct ListedCounts {
-  uvec4 part[8];  // of the sweep, as glDispatchComputeIndirect reads it: x: groups; w: triangles; the last part stays empty
+  uvec4 part[sweep_parts];  // as glDispatchComputeIndirect reads it: x: groups; w: triangles
   uint vertices;  // from here on as glDrawArraysIndirect reads it
   uint draw_instances;
   uint first_vertex;
