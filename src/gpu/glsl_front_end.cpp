@@ -119,6 +119,26 @@ std::filesystem::path glsl_folder() {
   return shipped_path("glsl", "glsl", "set IZB_GLSL to the folder of the shaders");
 }
 
+std::string program_text(const ProgramSpec& spec) {
+  constexpr std::string_view include = "#include \"";
+  const std::filesystem::path folder = glsl_folder();
+  std::string all;
+  for (const auto& [name, value] : spec.defines) all += fmt::format("#define {} {}\n", name, value);
+  std::vector<std::string> files = spec.files;
+  for (size_t i = 0; i < files.size(); ++i) {
+    std::ostringstream text;
+    text << std::ifstream(folder / files[i], std::ios::binary).rdbuf();
+    all += fmt::format("{} {}\n{}\n", files[i], text.view().size(), text.view());
+    std::istringstream lines(text.str());
+    for (std::string line; std::getline(lines, line);) {
+      if (!line.starts_with(include)) continue;
+      const std::string name = line.substr(include.size(), line.find('"', include.size()) - include.size());
+      if (std::find(files.begin(), files.end(), name) == files.end()) files.push_back(name);
+    }
+  }
+  return all;
+}
+
 std::vector<CheckedShader> check_program(const ProgramSpec& spec) {
   static const Process process;
   const auto messages = static_cast<EShMessages>(EShMsgDefault | EShMsgCascadingErrors);

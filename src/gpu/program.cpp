@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "base/error.h"
+#include "gpu/program_cache.h"
 
 namespace izb::gpu {
 namespace {
@@ -36,6 +37,9 @@ Program::Program(const ProgramSpec& spec) : spec_(spec) {
   ++made;
   name_ = glCreateProgram();
   glObjectLabel(GL_PROGRAM, name_, static_cast<GLsizei>(spec.label.size()), spec.label.data());
+  const CachedProgram cached(spec);
+  from_cache_ = cached.load(name_);
+  if (from_cache_) return;
   for (const CheckedShader& checked : check_program(spec)) {
     const GLuint shader = glCreateShader(gl_kind(checked.kind));
     const GLchar* text = checked.text.c_str();
@@ -52,6 +56,7 @@ Program::Program(const ProgramSpec& spec) : spec_(spec) {
     glAttachShader(name_, shader);
     glDeleteShader(shader);
   }
+  cached.announce(name_);
   glLinkProgram(name_);
   GLint linked = 0;
   glGetProgramiv(name_, GL_LINK_STATUS, &linked);
@@ -60,6 +65,7 @@ Program::Program(const ProgramSpec& spec) : spec_(spec) {
     glGetProgramInfoLog(name_, sizeof log, nullptr, log);
     fail("the GL driver cannot link '{}':\n{}", spec.label, log);
   }
+  cached.store(name_);
 }
 
 void Program::become(const ProgramSpec& spec) {

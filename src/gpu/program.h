@@ -13,11 +13,15 @@ struct ProgramTraits {
 class Program : public Object<ProgramTraits> {
  public:
   Program() = default;
-  /// Checks with glslang, then compiles and links. Throws izb::Error with file:line.
+  /// Takes it from the cache on disk (gpu/program_cache.h), or else checks with glslang, compiles and links. Throws
+  /// izb::Error with file:line.
   explicit Program(const ProgramSpec& spec);
-  /// Compiles, unless it is that program already.
+  /// Makes it anew, unless it is that program already.
   void become(const ProgramSpec& spec);
   bool is(const ProgramSpec& spec) const { return name_ != 0 && spec_ == spec; }
+
+  /// Whether it has not been compiled, but comes from the cache on disk.
+  bool from_cache() const { return from_cache_; }
 
   void use() const { glUseProgram(name_); }
   /// Uses the program and runs it over at least `width` x `height` invocations in groups of group_w x group_h, `layers`
@@ -26,9 +30,10 @@ class Program : public Object<ProgramTraits> {
 
  private:
   ProgramSpec spec_;
+  bool from_cache_ = false;
 };
 
-/// How many have been compiled since the process began.
+/// How many have been made since the process began, compiled or from the cache.
 uint64_t programs_made();
 
 }  // namespace izb::gpu

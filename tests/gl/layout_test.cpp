@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Structs that C++ and GLSL share: the driver's view of every block of every program against offsetof.
+// Structs that C++ and GLSL share: the driver's view of every block of every program, compiled and from the cache,
+// against offsetof.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -11,6 +12,7 @@
 #include "base/error.h"
 #include "gl/gl_test.h"
 #include "gpu/program.h"
+#include "gpu/program_cache.h"
 #include "shadow/renderer.h"
 #include "shared/bounds.h"
 #include "shared/deform.h"
@@ -236,13 +238,18 @@ void compare(GLuint program, bool storage, std::map<std::string, std::set<std::s
 
 TEST(Layout, TheDriverTakesEveryProgramAndAgreesWithTheCompilerOnEveryField) {
   std::map<std::string, std::set<std::string>> met;
+  const bool cached = !izb::gpu::CachedProgram({}).file().empty();
   for (const izb::gpu::ProgramSpec& spec : izb::Renderer::program_specs()) {
     if (!izb::test::first_lacking(spec.extensions).empty()) continue;  // program_test says so
     SCOPED_TRACE(spec.label);
     try {
-      const izb::gpu::Program program(spec);
-      compare(program.name(), false, met);
-      compare(program.name(), true, met);
+      const izb::gpu::Program made(spec);
+      compare(made.name(), false, met);
+      compare(made.name(), true, met);
+      const izb::gpu::Program again(spec);
+      EXPECT_TRUE(again.from_cache() || !cached);
+      compare(again.name(), false, met);
+      compare(again.name(), true, met);
     } catch (const izb::Error& e) {
       ADD_FAILURE() << "the driver does not take it: " << e.what();
     }

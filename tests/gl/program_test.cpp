@@ -1,34 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/program.h"
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-
 #include "base/error.h"
 #include "gl/gl_test.h"
+#include "gl/shader_folder.h"
 #include "shadow/renderer.h"
 
 namespace {
 
-namespace fs = std::filesystem;
 using namespace izb::gpu;
 
-/// A shader folder of its own.
-struct Programs : testing::Test {
-  const fs::path folder = fs::path(testing::TempDir()) / ("izb_program_test_" + std::to_string(getpid()));
-  Programs() {
-    fs::create_directories(folder);
-    setenv("IZB_GLSL", folder.c_str(), 1);
-  }
-  ~Programs() override {
-    unsetenv("IZB_GLSL");
-    fs::remove_all(folder);
-  }
-  void write(const std::string& file, const std::string& text) { std::ofstream(folder / file) << text; }
+struct Programs : izb::test::ShaderFolder {
   std::string refusal(const ProgramSpec& spec) {
     try {
       Program program(spec);
