@@ -54,6 +54,7 @@
 #define UNIT_TESTS 8
 #define UNIT_MASK 9
 #define UNIT_PYRAMID 10
+#define UNIT_OCCLUDERS 10
 #define UNIT_MICRO_QUAD 11
 #define UNIT_TABLE 12
 #define UNIT_ALPHA 13

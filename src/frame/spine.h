@@ -13,6 +13,9 @@ inline constexpr std::array<const char*, 6> stage_names{"gbuffer", "bounds", "bu
 /// Before them, and none of the paper's: the vertices of meshes that deform. Absent where there are none.
 inline constexpr const char* deform_name = "deform";
 
+/// Before `build`, and none of the paper's: izb's occlusion prepass. Absent where it is off.
+inline constexpr const char* occluders_name = "occluders";
+
 /// After them, of supersampled frames only.
 inline constexpr const char* accumulate_name = "accumulate";
 

@@ -282,7 +282,7 @@ TEST_F(BadInput, ExactInsertionsPoolThatDoesNotFit) {
   // What is known beforehand takes 4.5 MB; then each of the grid's 2^20 texels gets a node.
   const Outcome outcome = render(good(),
                                  {"--spp", "32", "--insertion", "exact", "--grid", "1024", "--grid-density", "0",
-                                  "--zcull", "off", "--pairs", "16"},
+                                  "--zcull", "off", "--occluders", "off", "--pairs", "16"},
                                  {{{"IZB_MEMORY_BYTES", "6000000"}}, false});
   expect_refused(outcome, "exact insertion", "--grid");
 }

@@ -119,7 +119,7 @@ TEST_F(BenchRun, WritesResultsTablesAndAReport) {
     SCOPED_TRACE(c["name"]);
     ASSERT_EQ(c["frame_samples"].size(), 3u);
     EXPECT_EQ(c["frame_ms"], izb::median(c["frame_samples"]));
-    EXPECT_EQ(c["stages"].size(), 6u);
+    EXPECT_EQ(c["stages"].size(), 7u);
     for (const json& stage : c["stages"]) {
       EXPECT_EQ(stage["samples"].size(), 3u);
       EXPECT_EQ(stage["gpu_ms"], izb::median(stage["samples"]));

@@ -113,7 +113,8 @@ TEST_F(Output, JsonHasTheDocumentedKeys) {
     EXPECT_EQ(stage["samples"].size(), 3u);
     EXPECT_GE(stage["gpu_ms"].get<double>(), 0.0);
   }
-  EXPECT_EQ(stages, (std::vector<std::string>{"gbuffer", "bounds", "build", "zcull", "visibility", "shade"}));
+  EXPECT_EQ(stages,
+            (std::vector<std::string>{"gbuffer", "bounds", "occluders", "build", "zcull", "visibility", "shade"}));
   for (const char* count : {"fragments", "fragments_after_zcull", "visibility_tests", "nodes", "longest_list"})
     EXPECT_TRUE(j["counts"].contains(count)) << count;
   EXPECT_TRUE(j["timing"] == "wall" || j["timing"] == "query");
@@ -125,8 +126,8 @@ TEST_F(Output, JsonHasTheDocumentedKeys) {
 }
 
 TEST_F(Output, TheListHistogramAddsUpToTheCounts) {
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"--spp", "1"}, {"--spp", "32", "--cascades", "2", "--removal", "off"}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--spp", "1", "--occluders", "off"},
+                                                {"--spp", "32", "--cascades", "2", "--removal", "off"}}) {
     ASSERT_EQ(render(words).code, 0);
     const nlohmann::json j = read_json(json), counts = j["counts"], averages = j["averages"];
     const auto histogram = j["list_histogram"].get<std::vector<uint64_t>>();
@@ -350,8 +351,9 @@ TEST_F(Output, ValidateFailsOnAPlantedError) {
   ASSERT_NE(at, std::string::npos);
   edited.replace(at, store.size(), "imageStore(mask, px, uvec4(0u))");
   std::ofstream(file) << edited;
-  const Outcome outcome = izb::test::izb({"validate", scene, "--spp", "1", "--size", "64x36", "--json", json},
-                                         {{{"IZB_GLSL", glsl}}, false});
+  const Outcome outcome =
+      izb::test::izb({"validate", scene, "--spp", "1", "--occluders", "off", "--size", "64x36", "--json", json},
+                     {{{"IZB_GLSL", glsl}}, false});
   if (outcome.says("Embree") && outcome.code == 1) GTEST_SKIP() << "this build has no Embree";
   EXPECT_EQ(outcome.code, 1) << outcome.err;
   const nlohmann::json j = read_json(json);

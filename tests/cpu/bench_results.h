@@ -46,7 +46,7 @@ inline json made_up_configuration(const Job& job, const Configuration& c, int n)
     return its;
   }
   std::vector<const char*> stages{"gbuffer", "build", "visibility", "shade"};
-  if (c.technique == "izb") stages = {"gbuffer", "bounds", "build", "zcull", "visibility", "shade"};
+  if (c.technique == "izb") stages = {"gbuffer", "bounds", "occluders", "build", "zcull", "visibility", "shade"};
   double sum = 0.0;
   for (size_t i = 0; i < stages.size(); ++i) {
     const double ms = double(n) * double(i + 1);

@@ -27,10 +27,11 @@ struct Built {
   Frame frame;
   IzbInternals izb;
 
+  /// Every receiver has nodes: without occluders.
   Built(const Scene& scene, const Light& light, const Settings& settings, int stride = 1) {
     Izb technique;
     technique.settings().insertion_stride = stride;
-    frame = render_frame(scene, camera, light, width_px, height_px, settings, technique);
+    frame = render_frame(scene, camera, light, width_px, height_px, with({{"occluders", "off"}}, settings), technique);
     izb = technique.internals();
   }
 

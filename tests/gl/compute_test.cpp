@@ -77,7 +77,8 @@ TEST(Compute, WhatALoopMayNotFinishIsLeftToFragments) {
     if (masked) {
       mask_mesh(scene, scene.meshes.size() - 1, 207, blots(207, 8, 8, Wrap::repeat, Wrap::repeat, false));
     }
-    const Settings few_lists = with(exact, {{"grid", "64"}, {"removal", "off"}, {"unchanged-skip", "off"}});
+    const Settings few_lists =
+        with(exact, {{"grid", "64"}, {"removal", "off"}, {"unchanged-skip", "off"}, {"occluders", "off"}});
     const Settings swept = with(with(few_lists, compute), {{"compute-texels", "16384"}});
     const Frame theirs = render_frame(scene, camera, sun(130, 80), 480, 360, few_lists);
     const Frame ours = render_frame(scene, camera, sun(130, 80), 480, 360, swept);

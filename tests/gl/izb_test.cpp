@@ -41,7 +41,8 @@ TEST(Izb, EveryReceiverStandsInExactlyOneListAndNothingElseInAny) {
   const Scene scene = tangled_scene(31, 200);
   for (const Light& light : lights())
     for (const char* grid : {"16", "257", "1024"}) {
-      const Frame frame = render_frame(scene, camera, light, width_px, height_px, {{"grid", grid}});
+      const Frame frame =
+          render_frame(scene, camera, light, width_px, height_px, {{"grid", grid}, {"occluders", "off"}});
       // A pixel has one next pointer; list_lengths throws if two lists share it.
       for (size_t i = 0; i < frame.mask.size(); ++i)
         EXPECT_EQ(frame.list_lengths[i] > 0.0f, frame.receivers.classes[i] == reference::PixelClass::receiver) << i;

@@ -89,7 +89,9 @@ TEST(Memory, IsWhatWasComputedBefore) {
                             {{"zcull-pyramid", "off"}},
                             {{"pairs", "0"}},
                             {{"cascades", "3"}},
-                            {{"raster", "compute"}}};
+                            {{"raster", "compute"}},
+                            {{"occluders", "on"}},
+                            {{"occluders", "on"}, {"zcull", "off"}}};
   for (const char* insertion : {"approximate", "nv", "samples", "exact"})
     for (const char* cascades : {"1", "4", "8"})
       all.push_back({{"spp", "32"}, {"insertion", insertion}, {"cascades", cascades}, {"nodes", "5"}, {"lut", "32"}});

@@ -73,7 +73,7 @@ TEST(Reuse, OptionsCompileWhatTheyChange) {
       {"cascades", "1"},     {"zcull", "on"},        {"coverage", "exact"}, {"zcull-pyramid", "off"},
       {"coverage", "lut"},   {"insertion", "exact"}, {"grid", "100"},       {"insertion", "nv"},
       {"samples", "halton"}, {"removal", "off"},     {"lut", "32"},         {"raster", "compute"},
-      {"raster", "gs"}};
+      {"raster", "gs"},      {"occluders", "on"},    {"zcull", "off"},      {"occluders", "off"}};
   Reused reused(scene, many);
   reused.mask_of(64, 48);
   std::map<std::string, std::string> now;

@@ -80,7 +80,7 @@ TEST(SpeedOfLight, FollowsTheOptions) {
   const Scene scene = masked_tangle(5);
   // Several at once, since compiling takes the time.
   const Settings each[] = {{{"alpha", "fragment"}, {"lut", "32"}, {"zcull", "off"}},
-                           {{"insertion", "exact"}, {"coverage", "exact"}, {"pipelining", "on"}},
+                           {{"insertion", "exact"}, {"coverage", "exact"}, {"pipelining", "on"}, {"occluders", "on"}},
                            {{"alpha", "off"}, {"unchanged-skip", "off"}, {"nl-cull", "off"}}};
   for (const Settings& settings : each) {
     Prepared p(scene, {sun(130, 35)}, with({{"spp", "32"}, {"removal", "off"}}, settings));

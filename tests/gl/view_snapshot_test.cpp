@@ -83,7 +83,7 @@ void expect_lists_agree(const Snapshot& s) {
       }
   EXPECT_EQ(in_pixels, in_texels);
   EXPECT_EQ(in_lists, izb.lists.nodes.size());
-  EXPECT_GT(in_pixels, size_t{width_px * height_px / 2});
+  EXPECT_GT(in_pixels, size_t{width_px * height_px / 3});
 }
 
 /// Every receiver's point lies within the box or pyramid of its layer, by the six planes through its corners, and each

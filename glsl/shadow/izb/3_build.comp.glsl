@@ -2,7 +2,7 @@
 // 5.3 Creating the irregular z-buffer: each receiver goes into the list of its light-space texel. Nodes stand in a
 // preallocated screen-space grid, so that a node's address is its pixel and slot and a node needs nothing but a next pointer
 // (6.2); at one sample a pixel the receiver's eye distance stands beside it, since a walk that reads one reads the other.
-// Defines: ZCULL; CUBE: a grid for each of six faces; SPP32, and then how it is inserted (6.1): COVER (texels that answer for
+// Defines: OCCLUDERS: but for receivers in surely full shadow (hidden.glsl); ZCULL; CUBE: a grid for each of six faces; SPP32, and then how it is inserted (6.1): COVER (texels that answer for
 // all of it), BY_VIEW, BY_SAMPLES, or POOL (every texel that it touches; COUNT_NODES only counts them); STRIDE: in another
 // order, for tests.
 #include "shared/bindings.h"
@@ -34,6 +34,10 @@ layout(location = 0) uniform int most_nodes;
 #ifdef COVER
 layout(location = 1) uniform float dilation;  // texels
 #endif
+#endif
+#ifdef OCCLUDERS
+layout(binding = IMAGE_MASK, r32ui) writeonly uniform uimage2D mask;
+#include "shadow/izb/hidden.glsl"
 #endif
 #ifdef POOL
 layout(std430, binding = BIND_POOL) buffer PoolBlock { PoolCounters pool; };
@@ -194,23 +198,41 @@ void insert_part(int layer, LightFrame face, LightWindow window, MicroQuad quad,
 }
 #endif
 
+// In surely full shadow? Then its mask is all that there is to do.
+bool is_done(ivec2 px, LightFrame face, int layer, MicroQuad quad, QuadPart part) {
+#ifdef OCCLUDERS
+  if (is_hidden(camera, face, windows[layer], layer, quad, part)) {
+#ifndef COUNT_NODES
+    imageStore(mask, px, uvec4(0xffffffffu));
+#endif
+    return true;
+  }
+#endif
+  return false;
+}
+
 void insert_quad(ivec2 px, int cascade, MicroQuad quad) {
   Slots slots = Slots(px, 0);
 #if defined(CUBE) && defined(POOL)
   QuadPart part_of_quad = quad_part(light, quad, only_face);
   int layer = only_face * int(light.grid.y) + cascade;
-  if (part_of_quad.any) insert_part(layer, light_face(light, only_face), windows[layer], quad, part_of_quad, slots);
+  LightFrame face = light_face(light, only_face);
+  if (!part_of_quad.any || is_done(px, face, layer, quad, part_of_quad)) return;
+  insert_part(layer, face, windows[layer], quad, part_of_quad, slots);
 #elif defined(CUBE)
   int f = face_of(light_position(light, quad.center));
   for (int i = 0; i < cube_faces; ++i) {
     QuadPart part_of_quad = quad_part(light, quad, f);
     int layer = f * int(light.grid.y) + cascade;
-    if (part_of_quad.any) insert_part(layer, light_face(light, f), windows[layer], quad, part_of_quad, slots);
+    LightFrame face = light_face(light, f);
+    if (part_of_quad.any && is_done(px, face, layer, quad, part_of_quad)) break;
+    if (part_of_quad.any) insert_part(layer, face, windows[layer], quad, part_of_quad, slots);
     if (part_of_quad.whole) break;
     f = f == cube_faces - 1 ? 0 : f + 1;
   }
 #else
-  insert_part(cascade, light, windows[cascade], quad, whole_quad(light, quad), slots);
+  QuadPart whole = whole_quad(light, quad);
+  if (!is_done(px, light, cascade, quad, whole)) insert_part(cascade, light, windows[cascade], quad, whole, slots);
 #endif
 }
 #endif
@@ -238,6 +260,12 @@ void main() {
   LightFrame face = light_face(light, f);
   int layer = f * int(light.grid.y) + cascade;
   LightWindow window = windows[layer];
+#ifdef OCCLUDERS
+  if (is_hidden(camera, face, window, layer, p, t)) {
+    imageStore(mask, px, uvec4(0xffffffffu));
+    return;
+  }
+#endif
   vec3 grid = grid_position(window, light_uvd(face, light_position(face, p)));
   uint next = push(ivec3(grid_texel(window, grid), layer), node_from_pixel(px, 0), grid.z + window.depth.z);
   imageStore(nodes, px, node_words(next, px, t));

@@ -37,7 +37,7 @@ json stage_ms(const json& configuration, const std::string& name) {
 json shadow_ms(const json& configuration) {
   double sum = 0.0;
   for (const json& stage : configuration["stages"])
-    for (const char* name : {"bounds", "build", "zcull", "visibility"})
+    for (const char* name : {"bounds", "occluders", "build", "zcull", "visibility"})
       if (stage["name"] == name) sum += stage["gpu_ms"].get<double>();
   return sum;
 }

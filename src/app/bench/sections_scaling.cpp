@@ -28,7 +28,7 @@ json stages_over_size(const Measured& m, const std::vector<std::string>& sizes) 
   json plot =
       new_plot("figure8-stages", "stacked", "Stages over the picture's resolution: " + scene_label(m) + ", 32 samples",
                {"resolution", "", "category"}, {"time", "ms"}, sizes);
-  for (const char* stage : {"gbuffer", "bounds", "build", "zcull", "visibility", "shade"}) {
+  for (const char* stage : {"gbuffer", "bounds", "occluders", "build", "zcull", "visibility", "shade"}) {
     std::vector<json> values;
     for (const std::string& size : sizes) values.push_back(value(m, of_32 + size, std::string("stages/") + stage));
     plot["series"].push_back(series(stage, std::move(values)));

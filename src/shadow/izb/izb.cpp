@@ -84,16 +84,16 @@ void Izb::resize(const FrameShape& shape) {
 
 void Izb::resize_grids(int layers) {
   const IzbSettings& s = built_;
-  if (heads_.become_array("izb heads", GL_R32UI, s.grid, s.grid, layers) || s.zcull != static_cast<bool>(depth_)) {
+  if (heads_.become_array("izb heads", GL_R32UI, s.grid, s.grid, layers) || s.zcull != static_cast<bool>(furthest_) ||
+      (s.zcull || s.occluders) != static_cast<bool>(depth_)) {
     light_framebuffer_ = gpu::Framebuffer();
     furthest_ = gpu::Texture();
     depth_ = gpu::Texture();
     pyramid_ = gpu::Texture();
   }
-  if (s.zcull && !depth_) {
-    furthest_ = gpu::Texture::array("izb furthest", GL_R32UI, s.grid, s.grid, layers);
+  if (s.zcull && !furthest_) furthest_ = gpu::Texture::array("izb furthest", GL_R32UI, s.grid, s.grid, layers);
+  if ((s.zcull || s.occluders) && !depth_)
     depth_ = gpu::Texture::array("izb z-cull", GL_DEPTH_COMPONENT16, s.grid, s.grid, layers);
-  }
   if (!s.pyramid()) {
     pyramid_ = gpu::Texture();
   } else if (!pyramid_) {
@@ -102,8 +102,8 @@ void Izb::resize_grids(int layers) {
                                    shared::pyramid_height(s.grid), layers);
   }
   if (!light_framebuffer_)
-    light_framebuffer_ = s.zcull ? gpu::Framebuffer("izb light space", {}, &depth_)
-                                 : gpu::Framebuffer("izb light space", s.grid, s.grid, layers);
+    light_framebuffer_ = depth_ ? gpu::Framebuffer("izb light space", {}, &depth_)
+                                : gpu::Framebuffer("izb light space", s.grid, s.grid, layers);
 }
 
 void Izb::resize_nodes() {
@@ -117,9 +117,13 @@ void Izb::resize_nodes() {
 
 void Izb::render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timers) {
   programs_.prepare(light_kind(in.light), in.masked_casters);
+  if (built_.occluders) {
+    const gpu::StageTimers::Scope scope(timers, occluders_name);
+    occlude(in);
+  }
   {
     const gpu::StageTimers::Scope scope(timers, name(Stage::build));
-    build(in);
+    build(in, &out);
   }
   if (built_.zcull) {
     const gpu::StageTimers::Scope scope(timers, name(Stage::zcull));
@@ -130,7 +134,34 @@ void Izb::render(const FrameInputs& in, Visibility& out, gpu::StageTimers& timer
   visibility(in, out, {IzbProgram::visibility, built_.zcull});
 }
 
-void Izb::build(const FrameInputs& in) {
+// Casters with an alpha mask may have holes.
+void Izb::occlude(const FrameInputs& in) {
+  glBindFramebuffer(GL_FRAMEBUFFER, light_framebuffer_.name());
+  glViewport(0, 0, built_.grid, built_.grid);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  glEnable(GL_DEPTH_CLAMP);
+  const float furthest = 1.0f;
+  glClearNamedFramebufferfv(light_framebuffer_.name(), GL_DEPTH, 0, &furthest);
+  programs_[IzbProgram::occluders].use();
+  const bool apart = in.masked_casters && built_.alpha_masks();
+  const int layers = layers_of(in), pass_layers = built_.layers_a_pass(static_cast<int>(in.light.grid.z));
+  for (int first = 0; first < layers; first += pass_layers) {
+    if (layers > 1) glUniform2i(2, first, std::min(first + pass_layers, layers));
+    in.draw_casters(apart ? Drawn::opaque : Drawn::all);
+  }
+  glDisable(GL_DEPTH_CLAMP);
+  glDisable(GL_DEPTH_TEST);
+}
+
+// With the occluders' depths, what they hide is written into the mask, if there is one.
+void Izb::build(const FrameInputs& in, Visibility* out) {
+  if (built_.occluders) {
+    glBindTextureUnit(UNIT_OCCLUDERS, depth_.name());
+    if (out) out->mask.clear_uint(0);
+    glBindImageTexture(IMAGE_MASK, out ? out->mask.name() : 0, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32UI);
+  }
   const int texels_a_quad = built_.pool() ? count_pool(in) : 0;
   heads_.clear_uint(shared::no_node);  // a second build over old heads would close the lists into rings
   glBindImageTexture(IMAGE_HEADS, heads_.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
@@ -284,7 +315,7 @@ void Izb::settle(const FrameInputs& in) {
 
 void Izb::visibility(const FrameInputs& in, Visibility& out, const Pass& pass) {
   reset_counters();
-  out.mask.clear_uint(0);
+  if (!built_.occluders) out.mask.clear_uint(0);  // else `build` has begun it
 
   glBindFramebuffer(GL_FRAMEBUFFER, light_framebuffer_.name());
   glViewport(0, 0, built_.grid, built_.grid);
@@ -311,7 +342,7 @@ void Izb::visibility(const FrameInputs& in, Visibility& out, const Pass& pass) {
 }
 
 shared::Counters Izb::visibility_counted(const FrameInputs& in, Visibility& out, const Pass& pass) {
-  restore_lists(in);
+  restore_lists(in, &out);
   visibility(in, out, pass);
   return read_counters();
 }

@@ -61,7 +61,8 @@ class Izb final : public Technique {
 
   void resize_grids(int layers);
   void resize_nodes();
-  void build(const FrameInputs& in);
+  void occlude(const FrameInputs& in);
+  void build(const FrameInputs& in, Visibility* out);
   void insert(const FrameInputs& in, const gpu::Program& program);
   int count_pool(const FrameInputs& in);
   void grow_pool(int rows);
@@ -82,7 +83,7 @@ class Izb final : public Technique {
   void test_stored(const FrameInputs& in, uint32_t stored);
   void reset_counters();
   shared::Counters read_counters() const { return counters_.read<shared::Counters>(1)[0]; }
-  void restore_lists(const FrameInputs& in);
+  void restore_lists(const FrameInputs& in, Visibility* out);
   IzbLists read_lists() const;
 
   IzbSettings settings_, built_;  ///< as the options say; as the programs and textures were made
@@ -92,7 +93,7 @@ class Izb final : public Technique {
   gpu::Texture heads_;     ///< light-space grids of head pointers, one a layer
   gpu::Texture nodes_;     ///< screen-space grid of nodes, or the pool of exact insertion
   gpu::Texture furthest_;  ///< bits of the furthest node's depth
-  gpu::Texture depth_;     ///< the same as a depth buffer
+  gpu::Texture depth_;     ///< the same as a depth buffer; before it is that, the occluders'
   gpu::Texture pyramid_;   ///< the same for squares of texels, see shared/pyramid.h
   gpu::Framebuffer light_framebuffer_;
   gpu::VertexArray no_attributes_;

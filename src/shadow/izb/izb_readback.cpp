@@ -45,7 +45,7 @@ Counts Izb::count(const FrameInputs& in, Visibility& out, bool unculled) {
 }
 
 std::vector<float> Izb::work(const FrameInputs& in, Visibility& out, IzbProgram program, gpu::Texture sums) {
-  restore_lists(in);
+  restore_lists(in, &out);
   sums.clear_uint(0);
   glBindImageTexture(IMAGE_WORK, sums.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
   visibility(in, out, {program, built_.zcull});
@@ -74,9 +74,12 @@ std::string Izb::fault() const {
          "take a larger --grid or more --cascades";
 }
 
-/// Removal leaves shorter lists behind.
-void Izb::restore_lists(const FrameInputs& in) {
-  if (built_.removal) build(in);
+/// Removal leaves shorter lists behind; and of what is hidden the mask is made with them.
+void Izb::restore_lists(const FrameInputs& in, Visibility* out) {
+  if (!built_.removal && !built_.occluders) return;
+  if (built_.occluders) occlude(in);
+  build(in, out);
+  if (built_.occluders && built_.zcull) zcull(layers_of(in));
 }
 
 IzbLists Izb::read_lists() const {
@@ -125,7 +128,7 @@ IzbInternals Izb::internals() const {
 }
 
 std::vector<float> Izb::list_lengths(const FrameInputs& in) {
-  restore_lists(in);
+  restore_lists(in, nullptr);
   const IzbLists lists = read_lists();
   std::vector<float> lengths(size_t(shape_.width_px) * shape_.height_px, 0.0f);
   for (size_t i = 0; i < lists.count(); ++i)
@@ -138,7 +141,7 @@ std::vector<float> Izb::list_lengths(const FrameInputs& in) {
 }
 
 std::vector<uint64_t> Izb::list_histogram(const FrameInputs& in) {
-  restore_lists(in);
+  restore_lists(in, nullptr);
   const IzbLists lists = read_lists();
   std::vector<uint64_t> histogram;
   for (size_t i = 0; i < lists.count(); ++i) {

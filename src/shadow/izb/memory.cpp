@@ -31,10 +31,8 @@ gpu::Plan Izb::memory_needed(const FrameShape& shape) const {
     plan.push_back(gpu::planned_texture("nodes", GL_R32UI, width_px, height_px, {"--size", "--nodes"}, s.slots()));
   else
     plan.push_back(gpu::planned_texture("nodes", GL_RG32UI, width_px, height_px, {"--size"}));
-  if (s.zcull) {
-    plan.push_back(grids("furthest", GL_R32UI));
-    plan.push_back(grids("zcull", GL_DEPTH_COMPONENT16));
-  }
+  if (s.zcull) plan.push_back(grids("furthest", GL_R32UI));
+  if (s.zcull || s.occluders) plan.push_back(grids("zcull", GL_DEPTH_COMPONENT16));
   if (s.pyramid())
     plan.push_back(gpu::planned_texture("zcull", GL_R32UI,
                                         shared::pyramid_side(s.grid, 0) + shared::pyramid_side(s.grid, 1),

@@ -11,6 +11,7 @@ namespace izb {
 namespace {
 
 bool belongs(IzbProgram program, const IzbSettings& settings) {
+  if (program == IzbProgram::occluders) return settings.occluders;
   if (program == IzbProgram::count_nodes) return settings.pool();
   if (program >= IzbProgram::hardware && program <= IzbProgram::hardware_stored) return settings.hardware();
   if (program >= IzbProgram::list && program <= IzbProgram::sweep_stored) return settings.compute();
@@ -123,6 +124,7 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
     light_defines();
     define(faces > 1, "CUBE");
     define(s.zcull, "ZCULL");
+    define(s.occluders, "OCCLUDERS");
     define(s.many_samples(), "SPP32");
     if (s.many_samples())
       define(true, s.insertion == "approximate" ? "COVER"
@@ -134,6 +136,13 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
     return {"izb build", {folder + "3_build.comp.glsl"}, defines};
   };
   switch (program) {
+    case IzbProgram::occluders:
+      light_defines();
+      define(faces > 1, "CUBE");
+      if (s.cascades * faces > 1) defines["LAYERS"] = std::to_string(s.layers_a_pass(faces));
+      return {"izb occluders",
+              {folder + "5_visibility.vert.glsl", folder + "3_occluders.geom.glsl", folder + "3_occluders.frag.glsl"},
+              defines};
     case IzbProgram::build:
       return build(false);
     case IzbProgram::count_nodes:

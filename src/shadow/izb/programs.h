@@ -11,6 +11,7 @@ namespace izb {
 
 /// The programs of the technique's stages.
 enum class IzbProgram {
+  occluders,
   build,
   count_nodes,
   zcull,

@@ -50,6 +50,9 @@ OptionSet IzbSettings::options() {
   set.flag("zcull-pyramid", zcull_pyramid,
            "with z-cull, end triangles that no receiver lies behind in the geometry shader, by a pyramid of furthest "
            "depths");
+  set.flag("occluders", occluders,
+           "before the lists are made, a depth map of triangles that surely cover whole texels of the grid: receivers "
+           "behind it are in full shadow and get no node (Tokuyoshi and Mizokuchi 2018)");
   set.integer("pairs", pair_capacity, by_size, 1 << 24, "pairs",
               "room for triangle-pixel pairs that single precision cannot decide; when it is exceeded a second pass "
               "decides them in double; -1: by the picture, one for 16 pixels, or at 32 samples for each");
@@ -75,6 +78,7 @@ void IzbSettings::apply(const std::string& preset) {
     cascades = 4;
     cascade_pass = "multiple";
     grid_density = 0.0;
+    occluders = false;
     removal = unchanged_skip = pipelining = true;
   } else if (preset == "exact") {
     sampling.spp = "32";

@@ -19,7 +19,7 @@ struct IzbSettings {
               alpha = "exact";
   int grid = 2048, nodes = 8, cascades = 1, compute_texels = 256, compute_rounds = 64;
   double dilation_texels = 1.0, grid_density = 4.0;
-  bool zcull = true, zcull_pyramid = true, nl_cull = true;
+  bool zcull = true, zcull_pyramid = true, nl_cull = true, occluders = true;
   bool removal = true, unchanged_skip = true, pipelining = false;
   int pair_capacity = by_size;
   /// No option, for tests: the order of insertion is n * stride modulo the number of pixels, to which the stride is
