@@ -149,10 +149,10 @@ SHARED Cover make_cover(IN(QuadOnGrid) q, float reach, float guard, int last, in
 SHARED Run cover_row(IN(Cover) c, int row, int most) {
   float low = 3.0e38f;
   float high = -3.0e38f;
-  // The border rows also hold what lies outside the grid.
+  // Rows that answer for a border also hold what lies outside the grid.
   float center = float(row) + 0.5f;
-  float bottom = row == 0 ? -3.0e38f : center - c.reach - c.guard;
-  float top = row == c.last ? 3.0e38f : center + c.reach + c.guard;
+  float bottom = center - c.reach <= 0.0f ? -3.0e38f : center - c.reach - c.guard;
+  float top = center + c.reach >= float(c.last + 1) ? 3.0e38f : center + c.reach + c.guard;
   add_segment(c.corner0, c.corner1, bottom, top, low, high);
   add_segment(c.corner1, c.corner2, bottom, top, low, high);
   add_segment(c.corner2, c.corner3, bottom, top, low, high);
