@@ -56,7 +56,7 @@ TEST_F(MachineMemory, OfVersionOneAndAGroupSeenAsTheRoot) {
 }
 
 TEST(ProcessMemory, OfWhatWasFreedGoesBack) {
-#if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__)
+#if !defined(__GLIBC__) || defined(IZB_SANITIZED)
   GTEST_SKIP() << "another allocator";
 #endif
   // Small enough for the C library to keep them, with something behind each that stays.
