@@ -4,17 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
-#include <cstdlib>
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "chosen_programs.h"
 #include "gl/gl_test.h"
 #include "gpu/program.h"
 #include "gpu/program_cache.h"
-#include "shadow/renderer.h"
 #include "shared/bounds.h"
 #include "shared/deform.h"
 #include "shared/depth_map.h"
@@ -237,24 +236,11 @@ void compare(GLuint program, bool storage, std::map<std::string, std::set<std::s
   }
 }
 
-/// All, with $IZB_FULL, or so many of them that each define of each set of files is in one: drivers take minutes for
-/// all.
-std::vector<izb::gpu::ProgramSpec> chosen_programs(bool all) {
-  std::vector<izb::gpu::ProgramSpec> chosen;
-  std::set<std::pair<std::vector<std::string>, std::pair<std::string, std::string>>> seen;
-  for (izb::gpu::ProgramSpec& spec : izb::Renderer::program_specs()) {
-    if (!izb::test::first_lacking(spec.extensions).empty()) continue;  // program_test says so
-    bool is_new = seen.insert({spec.files, {}}).second;
-    for (const auto& define : spec.defines) is_new |= seen.insert({spec.files, define}).second;
-    if (all || is_new) chosen.push_back(std::move(spec));
-  }
-  return chosen;
-}
-
-void expect_agreement(const std::vector<izb::gpu::ProgramSpec>& specs) {
+TEST(Layout, TheDriverTakesProgramsOfEveryDefineAndAgreesWithTheCompilerOnEveryField) {
   std::map<std::string, std::set<std::string>> met;
   const bool cached = !izb::gpu::CachedProgram({}).file().empty();
-  for (const izb::gpu::ProgramSpec& spec : specs) {
+  for (const izb::gpu::ProgramSpec& spec : izb::test::chosen_programs()) {
+    if (!izb::test::first_lacking(spec.extensions).empty()) continue;  // program_test says so
     SCOPED_TRACE(spec.label);
     try {
       const izb::gpu::Program made(spec);
@@ -267,15 +253,10 @@ void expect_agreement(const std::vector<izb::gpu::ProgramSpec>& specs) {
     } catch (const izb::Error& e) {
       ADD_FAILURE() << "the driver does not take it: " << e.what();
     }
-    if (testing::Test::HasFatalFailure()) return;
+    if (HasFatalFailure()) return;
   }
   // Nothing of the table is left unseen.
   for (const auto& [name, block] : blocks) EXPECT_EQ(met[name].size(), block.fields.size()) << name;
-}
-
-TEST(Layout, TheDriverTakesProgramsOfEveryDefineAndAgreesWithTheCompilerOnEveryField) {
-  const bool all = std::getenv("IZB_FULL");
-  expect_agreement(chosen_programs(all));
 }
 
 }  // namespace

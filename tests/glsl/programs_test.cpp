@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "shadow/renderer.h"
+#include "chosen_programs.h"
 
 namespace {
 
@@ -50,8 +50,8 @@ int line_of(const fs::path& file, const std::string& text) {
   return 0;
 }
 
-TEST(Programs, AllPassGlslang) {
-  const std::vector<ProgramSpec> specs = izb::Renderer::program_specs();
+TEST(Programs, OfEveryDefinePassGlslang) {
+  const std::vector<ProgramSpec> specs = izb::test::chosen_programs();
   ASSERT_GE(specs.size(), 10u);
   for (const ProgramSpec& spec : specs) EXPECT_EQ(complaint(spec), "") << describe(spec);
 }
