@@ -79,6 +79,7 @@ std::optional<SpeedOfLight> Izb::speed_of_light(const FrameInputs& in, Visibilit
     if (built_.occluders) {
       restore_lists(in, &alone);
       bind_lists(alone);
+      glBindTextureUnit(UNIT_TESTS, list.name());
     }
     reset_counters();
     {
