@@ -6,6 +6,7 @@
 #include "app/session.h"
 #include "base/log.h"
 #include "base/table.h"
+#include "gpu/program_cache.h"
 #include "reference/embree.h"
 #include "scene/gltf.h"
 #include "scene/view.h"
@@ -23,6 +24,8 @@ void print_gl(const std::string& context_name) {
   for (const auto& [name, value] : gpu::describe(gl.capabilities)) table.add_row({name, value});
   const gpu::Room room = gpu::memory_room(gl.capabilities);
   table.add_row({"memory available", room.bytes ? gpu::megabytes(*room.bytes) : "not said by the system"});
+  const std::optional<std::filesystem::path> programs = gpu::program_cache_folder();
+  table.add_row({"program cache", programs ? programs->string() : "off"});
   table.add_row({"ray tracer", reference::embree_version()});
   fmt::print("{}", table.str());
 }

@@ -65,7 +65,8 @@ Program::Program(const ProgramSpec& spec) : spec_(spec) {
     glGetProgramInfoLog(name_, sizeof log, nullptr, log);
     fail("the GL driver cannot link '{}':\n{}", spec.label, log);
   }
-  cached.store(name_);
+  // Unless a shader file was changed meanwhile.
+  if (CachedProgram(spec).file() == cached.file()) cached.store(name_);
 }
 
 void Program::become(const ProgramSpec& spec) {

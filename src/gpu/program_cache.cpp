@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/program_cache.h"
 
+#include <glslang/build_info.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
@@ -17,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view extension = ".program";
+/// To be changed with what glsl_front_end.cpp makes of a text.
 constexpr std::string_view magic = "izb program 1\n";
 /// All programs of all options take about 100 MB with Mesa 22.3.
 constexpr uint64_t limit_bytes = uint64_t(256) << 20;
@@ -42,12 +45,12 @@ std::vector<GLenum> formats() {
   return {all.begin(), all.end()};
 }
 
-/// What the driver says of itself: one that it changes with must not get what another has made. (It checks, too.)
+/// What the driver says of itself, since another must not get what it has made (it checks, too); and who made its text.
 std::string driver_text() {
-  std::string text;
+  std::string text(magic);
   for (const GLenum name : {GL_VENDOR, GL_RENDERER, GL_VERSION, GL_SHADING_LANGUAGE_VERSION})
     if (const auto* said = reinterpret_cast<const char*>(glGetString(name))) text += fmt::format("{}\n", said);
-  return text;
+  return text + fmt::format("glslang {}.{}.{}\n", GLSLANG_VERSION_MAJOR, GLSLANG_VERSION_MINOR, GLSLANG_VERSION_PATCH);
 }
 
 }  // namespace
@@ -78,7 +81,7 @@ bool CachedProgram::load(GLuint program) const {
   std::vector<std::byte> bytes;
   try {
     bytes = read_binary_file(file_);
-  } catch (const Error&) {
+  } catch (const std::exception&) {
     return false;
   }
   Head head;
@@ -121,7 +124,7 @@ void CachedProgram::store(GLuint program) const {
     static std::atomic<bool> trimmed{false};
     if (!trimmed.exchange(true)) trim_program_cache(file_.parent_path(), limit_bytes);
     write_file_atomically(file_, bytes);
-  } catch (const Error&) {  // a full disk, a folder of another person: it goes without
+  } catch (const std::exception&) {  // a full disk, a folder of another person: it goes without
   }
 }
 

@@ -98,6 +98,14 @@ TEST(Help, InfoAndSceneAreComplete) {
     EXPECT_NE(scene.find(name), std::string::npos) << name;
 }
 
+TEST(Info, SaysWhereProgramsAreKept) {
+  const auto program_cache = [](const std::string& place) {
+    return izb::test::izb({"info"}, {{{"IZB_PROGRAM_CACHE", place}}, false}).out;
+  };
+  EXPECT_NE(program_cache("/some/where").find("/some/where"), std::string::npos);
+  EXPECT_TRUE(std::regex_search(program_cache("off"), std::regex("program cache +off")));
+}
+
 TEST(Help, EachTechniqueListsItsOwnOptions) {
   EXPECT_NE(help_of({"render", "--technique", "izb"}).find("--zcull"), std::string::npos);
   const std::string traced = help_of({"render", "--technique", "ray_traced"});
