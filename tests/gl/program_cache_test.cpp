@@ -164,10 +164,10 @@ TEST_F(ProgramCache, LiesBelowTheCacheFolderOfThePerson) {
     if (const char* value = std::getenv(name)) before[name] = value;
   setenv("IZB_PROGRAM_CACHE", "", 1);
   setenv("XDG_CACHE_HOME", "/somewhere", 1);
-  setenv("HOME", "/home/somebody", 1);
+  setenv("HOME", "/nowhere", 1);
   EXPECT_EQ(program_cache_folder(), "/somewhere/izb/programs");
   unsetenv("XDG_CACHE_HOME");
-  EXPECT_EQ(program_cache_folder(), "/home/somebody/.cache/izb/programs");
+  EXPECT_EQ(program_cache_folder(), "/nowhere/.cache/izb/programs");
   unsetenv("HOME");
   EXPECT_EQ(program_cache_folder(), std::nullopt);
   for (const auto& [name, value] : before) setenv(name.c_str(), value.c_str(), 1);
