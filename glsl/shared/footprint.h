@@ -44,6 +44,28 @@ SHARED bool well_crossing(IN(vec2) m, IN(vec2) n) {
   return det * det > 0.00390625f * dot(m, m) * dot(n, n);
 }
 
+// Texels by which vertices on the grid may be off, more than `own`: two of the rasteriser's sub-pixel steps (8 bits), the vertices'
+// error, and what viewport transform, clipping and edge set-up lose on coordinates as large as `reach`.
+SHARED float raster_guard(IN(LightFrame) light, IN(LightWindow) window, IN(vec3) a, IN(vec3) b, IN(vec3) c, float reach, float own) {
+  float uv = max(uv_error(light, a, light_position(light, a)),
+                 max(uv_error(light, b, light_position(light, b)), uv_error(light, c, light_position(light, c))));
+  return own + 0.0078125f + uv * max(window.window.z, window.window.w) + 16.0f * unit_roundoff * reach;
+}
+
+// The same of the depth of a triangle with depths from z_min to z_max.
+SHARED float raster_depth_guard(IN(LightFrame) light, IN(LightWindow) window, IN(vec3) a, IN(vec3) b, IN(vec3) c, float z_min,
+                                float z_max, float own) {
+  float d_slack = max(d_error(light, a, light_position(light, a)),
+                      max(d_error(light, b, light_position(light, b)), d_error(light, c, light_position(light, c)))) *
+                  window.depth.y;
+  return own + d_slack + 64.0f * unit_roundoff * (1.0f + max(abs(z_min), abs(z_max)));
+}
+
+// Of the plane through two edges on the grid; det: their determinant.
+SHARED vec2 plane_slope(IN(vec3) e1, IN(vec3) e2, float det) {
+  return vec2((e1.z * e2.y - e2.z * e1.y) / det, (e2.z * e1.x - e1.z * e2.x) / det);
+}
+
 // half_texel: half the side of the square that is swept over the triangle: 1/2, or more for over-conservative rasters.
 SHARED Footprint make_footprint(IN(LightFrame) light, IN(LightWindow) window, IN(vec3) a, IN(vec3) b, IN(vec3) c,
                                 float half_texel) {
@@ -92,11 +114,8 @@ SHARED Footprint make_footprint(IN(LightFrame) light, IN(LightWindow) window, IN
   vec2 low = vec2(min(ga.x, min(gb.x, gc.x)), min(ga.y, min(gb.y, gc.y)));
   vec2 high = vec2(max(ga.x, max(gb.x, gc.x)), max(ga.y, max(gb.y, gc.y)));
 
-  // Guard: the receivers' own error, two of the rasteriser's sub-pixel steps (8 bits), the vertices' error, and what
-  // viewport transform, clipping and edge set-up lose on coordinates that large.
-  float uv = max(uv_error(light, a, la), max(uv_error(light, b, lb), uv_error(light, c, lc)));
   float reach = max(max(abs(low.x), abs(low.y)), max(abs(high.x), abs(high.y))) + side;
-  float guard = window.guard.x + 0.0078125f + uv * max(window.window.z, window.window.w) + 16.0f * unit_roundoff * reach;
+  float guard = raster_guard(light, window, a, b, c, reach, window.guard.x);  // with the receivers' own
   float half_width = half_texel + guard;
   f.box = vec4(low.x - half_width, low.y - half_width, high.x + half_width, high.y + half_width);
   // Written so that overflow (NaN, infinity) keeps the triangle and takes the whole grid.
@@ -113,9 +132,8 @@ SHARED Footprint make_footprint(IN(LightFrame) light, IN(LightWindow) window, IN
   vec3 e2 = gc - ga;
   float det = e1.x * e2.y - e1.y * e2.x;
   float scale = abs(e1.x * e2.y) + abs(e1.y * e2.x);
-  vec2 slope = vec2((e1.z * e2.y - e2.z * e1.y) / det, (e2.z * e1.x - e1.z * e2.x) / det);
-  float d_slack = max(d_error(light, a, la), max(d_error(light, b, lb), d_error(light, c, lc))) * window.depth.y;
-  float z_guard = window.depth.z + d_slack + 64.0f * unit_roundoff * (1.0f + max(abs(z_min), abs(z_max)));
+  vec2 slope = plane_slope(e1, e2, det);
+  float z_guard = raster_depth_guard(light, window, a, b, c, z_min, z_max, window.depth.z);
   float drop = half_width * (abs(slope.x) + abs(slope.y)) + 0.0009765625f * (z_max - z_min);
   bool sloped = finite && abs(det) > 0.0009765625f * scale && drop < z_max - z_min;
   vec3 base = sloped ? vec3(ga.x, ga.y, ga.z - drop - z_guard) : vec3(ga.x, ga.y, z_min - z_guard);

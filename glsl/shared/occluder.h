@@ -56,10 +56,8 @@ SHARED Occluder make_occluder(IN(LightFrame) light, IN(LightWindow) window, IN(v
   if (!(abs(dot(n, w)) > 2.0f * area_error * norm1(w) + least_cosine * sqrt(dot(n, n)) * length)) return o;
   if (holds_light(light, a, b, c)) return o;
 
-  // As make_footprint's, but for the receivers' own.
-  float uv = max(uv_error(light, a, la), max(uv_error(light, b, lb), uv_error(light, c, lc)));
   float reach = max(max(abs(low.x), abs(low.y)), max(abs(high.x), abs(high.y))) + side;
-  float guard = 0.0078125f + uv * max(window.window.z, window.window.w) + 16.0f * unit_roundoff * reach;
+  float guard = raster_guard(light, window, a, b, c, reach, 0.0f);
   if (!(reach < 1.0e6f * side && guard < 0.25f)) return o;
   float half_width = 0.5f + guard;
 
@@ -79,12 +77,11 @@ SHARED Occluder make_occluder(IN(LightFrame) light, IN(LightWindow) window, IN(v
   // Shifted beyond the triangle's middle the edges make another one, turned by half a circle.
   if (!(dot(cb - ca, vec2(e1.x, e1.y)) > 0.0f)) return o;
 
-  vec2 slope = vec2((e1.z * e2.y - e2.z * e1.y) / det, (e2.z * e1.x - e1.z * e2.x) / det);
+  vec2 slope = plane_slope(e1, e2, det);
   float z_min = min(ga.z, min(gb.z, gc.z));
   float z_max = max(ga.z, max(gb.z, gc.z));
-  float d_slack = max(d_error(light, a, la), max(d_error(light, b, lb), d_error(light, c, lc))) * window.depth.y;
   // The last term: a depth buffer of 16 bits.
-  float z_guard = d_slack + 64.0f * unit_roundoff * (1.0f + max(abs(z_min), abs(z_max))) + 1.5f / 65535.0f;
+  float z_guard = raster_depth_guard(light, window, a, b, c, z_min, z_max, 0.0f) + 1.5f / 65535.0f;
   float rise = half_width * (abs(slope.x) + abs(slope.y)) + 0.0009765625f * (z_max - z_min);
   vec3 base = vec3(ga.x, ga.y, ga.z + rise + z_guard);
   o.p0 = vec3(ca.x, ca.y, depth_at(base, slope, ca.x, ca.y));
