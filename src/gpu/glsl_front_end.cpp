@@ -3,6 +3,7 @@
 
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
+#include <glslang/build_info.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -18,6 +19,8 @@ namespace izb::gpu {
 namespace {
 
 constexpr int glsl_version = 450;
+/// To be changed with what this file makes of a text: programs are kept by it.
+constexpr int front_end_version = 1;
 
 std::string read(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
@@ -122,7 +125,8 @@ std::filesystem::path glsl_folder() {
 std::string program_text(const ProgramSpec& spec) {
   constexpr std::string_view include = "#include \"";
   const std::filesystem::path folder = glsl_folder();
-  std::string all;
+  std::string all = fmt::format("front end {}, glslang {}.{}.{}\n", front_end_version, GLSLANG_VERSION_MAJOR,
+                                GLSLANG_VERSION_MINOR, GLSLANG_VERSION_PATCH);
   for (const auto& [name, value] : spec.defines) all += fmt::format("#define {} {}\n", name, value);
   std::vector<std::string> files = spec.files;
   for (size_t i = 0; i < files.size(); ++i) {

@@ -31,9 +31,9 @@ struct CheckedShader {
 /// The folder of the shader files: $IZB_GLSL, the source tree, or beside the installed program.
 std::filesystem::path glsl_folder();
 
-/// What decides what check_program makes of it: the names and texts of its files and of all that they include, also
-/// where the preprocessor would skip the include, and the defines. Files that are not there have no text; never throws
-/// for them.
+/// What decides what check_program makes of it: glslang's version, the names and texts of its files and of all that
+/// they include, also where the preprocessor would skip the include, and the defines. Files that are not there have no
+/// text; never throws for them.
 std::string program_text(const ProgramSpec& spec);
 
 /// Every member file preprocessed, checked, and linked with its fellows by glslang. Throws izb::Error whose text has

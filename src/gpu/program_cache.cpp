@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/program_cache.h"
 
-#include <glslang/build_info.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
@@ -19,7 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view extension = ".program";
-/// To be changed with what glsl_front_end.cpp makes of a text.
 constexpr std::string_view magic = "izb program 1\n";
 /// All programs of all options take about 100 MB with Mesa 22.3.
 constexpr uint64_t limit_bytes = uint64_t(256) << 20;
@@ -45,12 +42,12 @@ std::vector<GLenum> formats() {
   return {all.begin(), all.end()};
 }
 
-/// What the driver says of itself, since another must not get what it has made (it checks, too); and who made its text.
+/// What the driver says of itself: another must not get what it has made. (It checks, too.)
 std::string driver_text() {
-  std::string text(magic);
+  std::string text;
   for (const GLenum name : {GL_VENDOR, GL_RENDERER, GL_VERSION, GL_SHADING_LANGUAGE_VERSION})
     if (const auto* said = reinterpret_cast<const char*>(glGetString(name))) text += fmt::format("{}\n", said);
-  return text + fmt::format("glslang {}.{}.{}\n", GLSLANG_VERSION_MAJOR, GLSLANG_VERSION_MINOR, GLSLANG_VERSION_PATCH);
+  return text;
 }
 
 }  // namespace
