@@ -84,14 +84,9 @@ void main() {
   Triangle triangle = make_triangle(eye, corners[0], corners[1], corners[2]);
 #endif
   uvec2 id = uvec2(instance + 1u, number);
-  ivec2 px;
-  bool unsure = walk(eye, triangle, id, w, px);
-  while (unsure) {
-    add_pair(px, id);
-    unsure = walk(eye, triangle, id, w, px);
-  }
+  bool all = walk_on(eye, triangle, id, w);
   // llvmpipe ends all loops of an invocation after 65,535 rounds; each fragment has as many of its own.
-  bool ended = !unsure && !goes_on(w);
+  bool ended = all && !goes_on(w);
   if (!ended && !is_last)
     go_on_later(entry, w);
   else if (!ended)

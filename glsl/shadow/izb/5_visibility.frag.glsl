@@ -48,18 +48,9 @@ void main() {
 #endif
   count_fragment(w);
   w.node = load_head(w.texel);
-  ivec2 px;
-  bool unsure = walk(eye, triangle, g_id, w, px);
-#ifndef COUNT
-  // Nearly all end here. A machine of lanes pays for a branch that nobody takes, but not for code after a discard of all.
-  if (!unsure && w.node == no_node) discard;
-#endif
-  while (unsure) {
-    add_pair(px, g_id);
-    unsure = walk(eye, triangle, g_id, w, px);
-  }
+  bool all = walk_on(eye, triangle, g_id, w);
   // llvmpipe ends all loops of an invocation after 65,535 rounds.
-  if (unsure || goes_on(w)) counters.unfinished = 1u;
+  if (!all || goes_on(w)) counters.unfinished = 1u;
 #ifdef COUNT
   add_counts(w);
 #endif

@@ -19,7 +19,6 @@ layout(std140, binding = BIND_CAMERA) uniform CameraBlock { CameraFrame camera; 
 layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
 layout(std430, binding = BIND_COUNTERS) buffer CounterBlock { Counters counters; };
 layout(std430, binding = BIND_PAIRS) readonly buffer PairBlock { UnsurePair pairs[]; };
-layout(binding = UNIT_EYE_DISTANCE) uniform sampler2D eye_distance_texture;
 
 void main() {
   uint count = min(counters.pairs, counters.capacity);

@@ -13,9 +13,6 @@ layout(local_size_x = 64) in;
 layout(location = 0) uniform int test_count;
 
 layout(binding = UNIT_TESTS) uniform usampler2D stored_tests;
-#ifndef SPP32
-layout(binding = UNIT_EYE_DISTANCE) uniform sampler2D eye_distance_texture;
-#endif
 
 Triangle triangle_of(CameraFrame eye, uint instance, uint number) {
   vec3 corners[3] = triangle_vs(instance, number);
@@ -41,14 +38,9 @@ void main() {
   uvec2 stored = texelFetch(stored_tests, texel, 0).xy;
   ivec2 px = stored_pixel(stored);
   uvec2 id = stored_id(stored);
-#ifdef SPP32
-  vec4 data = texelFetch(micro_quad_texture, px, 0);
-#else
-  vec4 data = vec4(texelFetch(eye_distance_texture, px, 0).x, 0.0, 0.0, 0.0);
-#endif
   CameraFrame eye = camera;
   bool unsure;
-  uint bits = test(eye, triangle_of(eye, id.x - 1u, id.y), px, data, unsure);
+  uint bits = test(eye, triangle_of(eye, id.x - 1u, id.y), px, load_data(px), unsure);
   if (bits != 0u) add_shadow(px, bits);
   if (unsure) add_pair(px, id);
 }

@@ -16,9 +16,6 @@ layout(std140, binding = BIND_LIGHT) uniform LightBlock { LightFrame light; };
 layout(std430, binding = BIND_COUNTERS) buffer CounterBlock { Counters counters; };
 layout(std430, binding = BIND_PAIRS) writeonly buffer PairBlock { UnsurePair pairs[]; };
 layout(binding = UNIT_ID) uniform usampler2D id_texture;
-#ifdef SPP32
-layout(binding = UNIT_EYE_DISTANCE) uniform sampler2D eye_distance_texture;
-#endif
 
 #ifdef SPP32
 #define Planes QuadTriangle
@@ -78,26 +75,12 @@ void add_pair(ivec2 px, uvec2 id) {
   if (i < counters.capacity) pairs[i] = UnsurePair(node_from_pixel(px, 0), id.x - 1u, id.y);
 }
 
-// The mask bits of one pair.
-uint test(CameraFrame eye, Triangle t, ivec2 px, vec4 data, out bool unsure) {
+// The mask bits of one pair, as if the triangle had no alpha mask.
+uint test_opaque(CameraFrame eye, Triangle t, ivec2 px, vec4 data, out bool unsure) {
 #ifdef SPP32
   uint bits = classify_quad(eye, t.planes, make_micro_quad(eye, px, data), unsure);
 #ifdef IN_DOUBLE
   if (unsure) bits = occluded_bits(quad_planes(eye, light, t.a, t.b, t.c, px, data));
-#endif
-#ifdef ALPHA_EXACT
-  if (t.masked) {
-    bits &= ~known_shadow(px);  // whose alpha need not be asked
-    if (bits != 0u) {
-      uint undecided;
-      bits = uncut_bits(t.cutout, quad_planes(eye, light, t.a, t.b, t.c, px, data), bits, undecided);
-#ifdef IN_DOUBLE
-      if (undecided != 0u) counters.unfinished = 1u;
-#else
-      unsure = unsure || undecided != 0u;
-#endif
-    }
-  }
 #endif
 #else
   vec3 p = receiver_point(eye, vec2(px) + 0.5, data.x);
@@ -106,13 +89,41 @@ uint test(CameraFrame eye, Triangle t, ivec2 px, vec4 data, out bool unsure) {
 #ifdef IN_DOUBLE
   if (unsure) answer = occludes(eye, light, t.a, t.b, t.c, p, data.x) ? pair_in : pair_out;
 #endif
-#ifdef ALPHA_EXACT
-  if (t.masked && answer == pair_in && !is_uncut(t.cutout, light, p, t.a, t.b, t.c)) answer = pair_out;
-#endif
   uint bits = answer == pair_in ? 0xffffffffu : 0u;
 #endif
 #ifdef IN_DOUBLE
   unsure = false;
+#endif
+  return bits;
+}
+
+// Is the alpha mask to be asked about these bits of the triangle's? Not about those that are dark already.
+bool is_alpha_asked(Triangle t, ivec2 px, uint bits) {
+#ifdef ALPHA_EXACT
+  return t.masked && (bits & ~known_shadow(px)) != 0u;
+#else
+  return false;
+#endif
+}
+
+// The mask bits of one pair.
+uint test(CameraFrame eye, Triangle t, ivec2 px, vec4 data, out bool unsure) {
+  uint bits = test_opaque(eye, t, px, data, unsure);
+#ifdef ALPHA_EXACT
+  if (is_alpha_asked(t, px, bits)) {
+#ifdef SPP32
+    uint undecided;
+    bits = uncut_bits(t.cutout, quad_planes(eye, light, t.a, t.b, t.c, px, data), bits & ~known_shadow(px), undecided);
+#ifdef IN_DOUBLE
+    if (undecided != 0u) counters.unfinished = 1u;
+#else
+    unsure = unsure || undecided != 0u;
+#endif
+#else
+    vec3 p = receiver_point(eye, vec2(px) + 0.5, data.x);
+    if (!is_uncut(t.cutout, light, p, t.a, t.b, t.c)) bits = 0u;
+#endif
+  }
 #endif
   return bits;
 }

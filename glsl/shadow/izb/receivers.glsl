@@ -15,6 +15,7 @@ layout(binding = UNIT_NODES) uniform NODE_SAMPLER nodes;
 #ifdef SPP32
 layout(binding = UNIT_MICRO_QUAD) uniform sampler2D micro_quad_texture;
 #endif
+layout(binding = UNIT_EYE_DISTANCE) uniform sampler2D eye_distance_texture;
 layout(binding = IMAGE_MASK, r32ui) coherent uniform uimage2D mask;
 
 // A node as the walk needs it.
@@ -24,6 +25,15 @@ struct Receiver {
   ivec2 px;
   vec4 data;  // x: eye distance; SPP32: the whole micro-quad
 };
+
+// Of a pixel, as a node's.
+vec4 load_data(ivec2 px) {
+#ifdef SPP32
+  return texelFetch(micro_quad_texture, px, 0);
+#else
+  return vec4(texelFetch(eye_distance_texture, px, 0).x, 0.0, 0.0, 0.0);
+#endif
+}
 
 uint load_head(ivec3 texel) { return LOAD(heads, texel).x; }
 
@@ -38,7 +48,7 @@ Receiver load_receiver(uint node) {
   r.px = pixel_from_node(node);
 #endif
 #ifdef SPP32
-  r.data = texelFetch(micro_quad_texture, r.px, 0);
+  r.data = load_data(r.px);
 #else
   r.data = vec4(uintBitsToFloat(words.y), 0.0, 0.0, 0.0);
 #endif

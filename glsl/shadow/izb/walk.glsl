@@ -119,13 +119,23 @@ void next_texel(Triangle triangle, inout Walk w) {
 }
 #endif
 
-// Stops at the end, or after a pair that single precision cannot decide. True: such a pair was met, `px` is its pixel.
-bool walk(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, out ivec2 px) {
-  bool unsure = false;
+// Pairs that take more than the walk's rounds should: those that single precision cannot decide, and those whose alpha mask is to
+// be asked. All lanes of a round pay for what one of them does; put off, the few are paid for side by side.
+struct PutOff {
+  uvec4 pixels;  // as node_from_pixel packs them, the last one first
+  int count;
+};
+
+const int put_off_room = 4;
+
+// Stops at the end, or where no more can be put off.
+void walk(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, out PutOff put_off) {
+  put_off.pixels = uvec4(0u);
+  put_off.count = 0;
 #ifdef PIPELINE
   Receiver ahead = load_receiver(w.node);
 #endif
-  while (goes_on(w) && has_rounds(w) && !unsure) {
+  while (goes_on(w) && has_rounds(w) && put_off.count < put_off_room) {
 #ifdef SWEEP
     --w.rounds;
     // In the same loop: with one of its own, all lanes would wait for the one that skips most.
@@ -139,9 +149,8 @@ bool walk(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, out ivec2 
     Receiver r = load_receiver(w.node);
 #endif
     w.node = r.next;
-    px = r.px;
 #ifdef REMOVAL
-    if (imageLoad(mask, px).x == 0xffffffffu) {
+    if (imageLoad(mask, r.px).x == 0xffffffffu) {
 #ifdef SWEEP
       if (w.resumed) continue;
 #endif
@@ -156,19 +165,51 @@ bool walk(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, out ivec2 
 #endif
     ++w.tests;
 #ifdef COUNT_TESTS
-    imageAtomicAdd(tests_a_pixel, px, 1u);
+    imageAtomicAdd(tests_a_pixel, r.px, 1u);
 #endif
 #ifdef STORE_TESTS
-    store_test(px, id);
+    store_test(r.px, id);
 #endif
-    uint bits = test(eye, triangle, r.px, r.data, unsure);
-    if (bits != 0u && !add_shadow(px, bits)) ++w.unchanged;
-#ifdef SWEEP
-    // Whoever stops waits for the longest of all sweeps.
-    if (unsure) unsure = is_to_settle(px, id);
+    bool later;
+    uint bits = test_opaque(eye, triangle, r.px, r.data, later);
+#ifdef ALPHA_EXACT
+    later = later || is_alpha_asked(triangle, r.px, bits);
+    if (triangle.masked) bits = 0u;
 #endif
+    if (bits != 0u && !add_shadow(r.px, bits)) ++w.unchanged;
+    if (later) {
+      put_off.pixels = uvec4(node_from_pixel(r.px, 0), put_off.pixels.xyz);
+      ++put_off.count;
+    }
   }
-  return unsure;
+}
+
+// Takes the last pair that was put off.
+void take(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, inout PutOff put_off) {
+  ivec2 px = pixel_from_node(put_off.pixels.x);
+  put_off.pixels = put_off.pixels.yzww;
+  --put_off.count;
+#ifdef ALPHA_EXACT
+  if (triangle.masked) {
+    bool unsure;
+    uint bits = test(eye, triangle, px, load_data(px), unsure);
+    if (bits != 0u && !add_shadow(px, bits)) ++w.unchanged;
+    if (!unsure) return;
+  }
+#endif
+  add_pair(px, id);
+}
+
+// To the end of the list (SWEEP: or of the rounds), with all that it puts off. False: a driver's limit of loops ended it before.
+bool walk_on(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w) {
+  bool full;
+  PutOff put_off;
+  do {
+    walk(eye, triangle, id, w, put_off);
+    full = put_off.count == put_off_room;
+    while (put_off.count > 0) take(eye, triangle, id, w, put_off);
+  } while (full);
+  return !full && put_off.count == 0;
 }
 
 #ifdef COUNT
