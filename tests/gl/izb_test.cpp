@@ -115,6 +115,27 @@ TEST(Izb, PairsInDoubleAreFewAndWithoutRoomForThemAllIsDoneInDouble) {
   EXPECT_LT(frame.count("pairs_in_double"), frame.count("visibility_tests") / 20);
 }
 
+// A walk puts a few unsure pairs off and stops where it has no room for more: lists that hold far more of them.
+TEST(Izb, NoUnsurePairOfALongListIsLost) {
+  Scene scene = empty_scene();
+  add_soup(scene, floor_of(16.0f));
+  // A row of pixel centres lies on the border of the shadow, to the last bit: pixels are 1/8 wide.
+  add_soup(scene, rectangle({6.5f, 6.0f, -0.0625f}, {6.0f, 0, 0}, {0, 0, 3.0f}));
+  Camera above = look_at({0, 10, 0}, {0, 0, 0}, 1.0);
+  above.orthographic = true;
+  above.ymag = 4.0;
+  above.near_plane = 0.1;
+  above.far_plane = 40.0;
+  for (const char* raster : {"gs", "compute"})
+    for (const char* removal : {"on", "off"}) {
+      const Frame frame = render_frame(scene, above, sun(90, 45), width_px, height_px,
+                                       {{"grid", "16"}, {"raster", raster}, {"removal", removal}});
+      EXPECT_GT(frame.count("pairs_in_double"), 40u);
+      EXPECT_GT(shadowed(frame), 1000u);
+      EXPECT_EQ(different(frame.mask, brute_force_mask(frame)), 0u) << raster << ", removal " << removal;
+    }
+}
+
 TEST(Izb, TheMaskDoesNotDependOnTheOrderOfTrianglesOrInstances) {
   Scene scene = tangled_scene(52, 200);
   const Frame base = render_frame(scene, camera, sun(130, 35), width_px, height_px);
