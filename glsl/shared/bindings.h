@@ -27,6 +27,7 @@
 #define BIND_EXPOSED 11
 #define BIND_LISTED 12
 #define BIND_LISTED_COUNTS 13
+#define BIND_ASKED 14
 // Further windows of positions and indices, one number each, where a driver's storage blocks are too small for the scene.
 #define MAX_GEOMETRY_WINDOWS 6
 #define BIND_MORE_POSITIONS 16

@@ -17,7 +17,11 @@ struct Counters {
   uint carries;           // times that fragments (low 16 bits) and visibility_tests (high) have passed 32 bits
   uint stored;            // tests that were to be stored; those beyond the list's end are not (storing variant only)
   uint unstorable;        // not 0: a test's numbers do not fit in its words (storing variant only)
+  uint asked;             // pairs whose alpha mask is to be asked; those beyond their capacity are not stored
+  uint asked_capacity;
   uint drawn;             // of `triangles`, those that --raster compute left to the raster pipeline (counting variant only)
+  uint unused0;
+  uint unused1;
 };
 
 struct UnsurePair {

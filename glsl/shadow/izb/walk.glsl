@@ -1,7 +1,7 @@
 // The walk over lists, for fragments (5_visibility.frag.glsl) and for invocations that have a triangle each
 // (5_visibility.comp.glsl): tests each listed pixel against the triangle, and adds shadow to its mask.
-// Defines, beside those of pair_test.glsl: PIPELINE: fetch one node ahead (6.8); SWEEP: over the lists of many texels, ZCULL: but
-// for those that the triangle lies behind; COUNT: count fragments and tests; COUNT_TESTS, COUNT_FRAGMENTS: also those of each
+// Defines, beside those of pair_test.glsl: PIPELINE: fetch one node ahead (6.8); SWEEP: over the lists of many texels;
+// COUNT: count fragments and tests; COUNT_TESTS, COUNT_FRAGMENTS: also those of each
 // pixel, of each texel; STORE_TESTS: store each test for 5_visibility_speed_of_light.comp.glsl.
 #include "shadow/izb/pair_test.glsl"
 
@@ -39,11 +39,9 @@ struct Walk {
   uint node;  // where to go on
 #ifdef SWEEP
   int rounds;    // that are left
-  int texels;    // that are left
-  ivec4 box;     // first and last of all
-  vec3 edge[4];  // of the footprint, within which none is negative
-  vec3 base;     // of its depth
-  vec2 slope;
+  uvec2 texels;  // that are left, a bit each
+  int number;    // of the next one, if it is one of them
+  ivec2 first;   // texel of the window
   bool resumed;  // within a list, whose node before is not known
 #endif
   uint fragments;
@@ -59,7 +57,10 @@ Walk begin_walk(ivec3 texel) {
   w.node = no_node;
   w.fragments = w.tests = w.removed = w.unchanged = 0u;
 #ifdef SWEEP
-  w.texels = 0;
+  w.texels = uvec2(0u);
+  w.number = 0;
+  w.first = ivec2(0);
+  w.rounds = 0;
   w.resumed = false;
 #endif
   return w;
@@ -76,7 +77,7 @@ void count_fragment(inout Walk w) {
 
 bool goes_on(Walk w) {
 #ifdef SWEEP
-  return w.node != no_node || w.texels > 0;
+  return w.node != no_node || (w.texels.x | w.texels.y) != 0u;
 #else
   return w.node != no_node;
 #endif
@@ -91,23 +92,17 @@ bool has_rounds(Walk w) {
 }
 
 #ifdef SWEEP
-#ifdef ZCULL
-layout(binding = UNIT_FURTHEST) uniform usampler2DArray furthest;
-#endif
+ivec2 texel_of_window(int number) { return ivec2(number % window_texels, number / window_texels); }
 
-// Goes to the next texel, and if it is in the footprint to the head of its list.
+// Goes to the next texel that is left, to the head of its list.
 void next_texel(Triangle triangle, inout Walk w) {
-  --w.texels;
-  ++w.texel.x;
-  if (w.texel.x > w.box.z) w.texel.xy = ivec2(w.box.x, w.texel.y + 1);
-  vec3 center = vec3(vec2(w.texel.xy) + 0.5, 1.0);
-  float inside = min(min(dot(w.edge[0], center), dot(w.edge[1], center)),
-                     min(dot(w.edge[2], center), dot(w.edge[3], center)));
-  if (inside < 0.0) return;
-#ifdef ZCULL
-  float depth = depth_at(w.base, w.slope, center.x, center.y);
-  if (max(depth, 0.0) >= uintBitsToFloat(texelFetch(furthest, w.texel, 0).x)) return;
-#endif
+  int n = w.texels.x != 0u ? findLSB(w.texels.x) : findLSB(w.texels.y) + 32;
+  if (w.texels.x != 0u)
+    w.texels.x &= w.texels.x - 1u;
+  else
+    w.texels.y &= w.texels.y - 1u;
+  w.number = n + 1;
+  w.texel.xy = w.first + texel_of_window(n);
   uint head = load_head(w.texel);
 #ifdef ALPHA_FRAGMENT
   if (is_hole(triangle, w.texel)) return;
@@ -184,11 +179,27 @@ void walk(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, out PutOff
   }
 }
 
-// Takes the last pair that was put off.
-void take(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, inout PutOff put_off) {
+ivec2 last_put_off(inout PutOff put_off) {
   ivec2 px = pixel_from_node(put_off.pixels.x);
   put_off.pixels = put_off.pixels.yzww;
   --put_off.count;
+  return px;
+}
+
+#if defined(ALPHA_EXACT) && defined(SWEEP)
+layout(std430, binding = BIND_ASKED) writeonly buffer AskedBlock { UnsurePair asked[]; };
+
+// Into the list of 5_visibility_alpha.comp.glsl, whose lanes are full.
+void take_all(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, inout PutOff put_off) {
+  if (put_off.count == 0) return;
+  uint i = atomicAdd(counters.asked, uint(put_off.count));
+  for (; put_off.count > 0; ++i) {
+    ivec2 px = last_put_off(put_off);
+    if (i < counters.asked_capacity) asked[i] = UnsurePair(node_from_pixel(px, 0), id.x - 1u, id.y);
+  }
+}
+#else
+void take(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, ivec2 px) {
 #ifdef ALPHA_EXACT
   if (triangle.masked) {
     bool unsure;
@@ -200,6 +211,11 @@ void take(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, inout PutO
   add_pair(px, id);
 }
 
+void take_all(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, inout PutOff put_off) {
+  while (put_off.count > 0) take(eye, triangle, id, w, last_put_off(put_off));
+}
+#endif
+
 // To the end of the list (SWEEP: or of the rounds), with all that it puts off. False: a driver's limit of loops ended it before.
 bool walk_on(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w) {
   bool full;
@@ -207,7 +223,7 @@ bool walk_on(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w) {
   do {
     walk(eye, triangle, id, w, put_off);
     full = put_off.count == put_off_room;
-    while (put_off.count > 0) take(eye, triangle, id, w, put_off);
+    take_all(eye, triangle, id, w, put_off);
   } while (full);
   return !full && put_off.count == 0;
 }

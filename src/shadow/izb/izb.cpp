@@ -75,6 +75,11 @@ void Izb::resize(const FrameShape& shape) {
     listed_ = gpu::Buffer();
     listed_counts_ = gpu::Buffer();
   }
+  if (s.lists_alpha())
+    buffer(asked_, "izb pairs that ask alpha",
+           sizeof(shared::UnsurePair) * static_cast<size_t>(s.asked_pairs(shape.width_px, shape.height_px)));
+  else
+    asked_ = gpu::Buffer();
   std::vector<uint32_t> words;
   if (s.table()) words = make_visibility_table(samples(), s.table_side());
   if (words == table_words_) return;
@@ -301,6 +306,7 @@ void Izb::draw(const FrameInputs& in, const Pass& pass) {
 
 void Izb::reset_counters() {
   shared::Counters fresh{};
+  fresh.asked_capacity = static_cast<uint32_t>(built_.asked_pairs(shape_.width_px, shape_.height_px));
   fresh.capacity = static_cast<uint32_t>(built_.pair_capacity);
   counters_.update(0, sizeof fresh, &fresh);
 }

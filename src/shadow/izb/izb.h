@@ -74,6 +74,7 @@ class Izb final : public Technique {
   void draw(const FrameInputs& in, const Pass& pass);
   void draw_by_footprint(const FrameInputs& in, IzbProgram program, Drawn drawn);
   void draw_by_compute(const FrameInputs& in, IzbProgram program, Drawn drawn);
+  void ask_alpha(const gpu::Program& program);
   void draw_in_double(const FrameInputs& in, Drawn drawn);
   void draw_by_hardware(const FrameInputs& in, IzbProgram program, Drawn drawn);
   shared::Counters visibility_counted(const FrameInputs& in, Visibility& out, const Pass& pass);
@@ -99,6 +100,7 @@ class Izb final : public Technique {
   gpu::VertexArray no_attributes_;
   gpu::Buffer counters_, pairs_, pool_counter_;
   gpu::Buffer listed_, listed_counts_;  ///< of --raster compute, see shared/sweep.h
+  gpu::Buffer asked_;                   ///< likewise: pairs whose alpha mask is to be asked
   gpu::BufferTexture table_;
   std::vector<uint32_t> table_words_;  ///< what it holds
   gpu::Query overflow_;

@@ -52,6 +52,9 @@ gpu::Plan Izb::memory_needed(const FrameShape& shape) const {
     buffer("listed", Kind::storage_buffer, sizeof(shared::ListedTriangle) * shared::list_size);
     buffer("listed", Kind::storage_buffer, sizeof(shared::ListedCounts));
   }
+  if (s.lists_alpha())
+    buffer("asked", Kind::storage_buffer,
+           sizeof(shared::UnsurePair) * static_cast<uint64_t>(s.asked_pairs(width_px, height_px)), {"--pairs"});
   return plan;
 }
 
@@ -62,7 +65,8 @@ Counts Izb::memory() const {
           {"zcull", depth_.bytes() + pyramid_.bytes()},
           {"table", table_.bytes()},
           {"pairs", pairs_.bytes() + counters_.bytes() + pool_counter_.bytes()},
-          {"listed", listed_.bytes() + listed_counts_.bytes()}};
+          {"listed", listed_.bytes() + listed_counts_.bytes()},
+          {"asked", asked_.bytes()}};
 }
 
 // Known only now, since the receivers' places in the grid decide it. An eighth more, so that a moving camera does not

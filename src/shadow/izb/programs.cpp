@@ -15,6 +15,7 @@ bool belongs(IzbProgram program, const IzbSettings& settings) {
   if (program == IzbProgram::count_nodes) return settings.pool();
   if (program >= IzbProgram::hardware && program <= IzbProgram::hardware_stored) return settings.hardware();
   if (program >= IzbProgram::list && program <= IzbProgram::sweep_stored) return settings.compute();
+  if (program == IzbProgram::alpha || program == IzbProgram::alpha_counted) return settings.lists_alpha();
   return true;
 }
 
@@ -22,16 +23,18 @@ bool belongs(IzbProgram program, const IzbSettings& settings) {
 bool measures(IzbProgram program) {
   return (program >= IzbProgram::visibility_counted && program <= IzbProgram::visibility_stored) ||
          (program >= IzbProgram::hardware_counted && program <= IzbProgram::hardware_stored) ||
-         program == IzbProgram::list_all ||
-         (program >= IzbProgram::sweep_counted && program <= IzbProgram::speed_of_light);
+         program == IzbProgram::list_all || (program > IzbProgram::tiles && program <= IzbProgram::tiles_counted_all) ||
+         (program >= IzbProgram::sweep_counted && program <= IzbProgram::sweep_stored) ||
+         program == IzbProgram::alpha_counted || program == IzbProgram::speed_of_light;
 }
 
 }  // namespace
 
 bool knows_masks(IzbProgram program, const IzbSettings& settings) {
-  if (program == IzbProgram::settle || program == IzbProgram::speed_of_light)
+  if (program == IzbProgram::alpha || program == IzbProgram::alpha_counted || program == IzbProgram::settle ||
+      program == IzbProgram::speed_of_light)
     return settings.alpha == "exact";  // else the walk has asked before
-  if (program == IzbProgram::list || program == IzbProgram::list_all) return false;
+  if (program >= IzbProgram::list && program <= IzbProgram::tiles_counted_all) return false;
   return settings.alpha_masks() && program >= IzbProgram::visibility && program <= IzbProgram::sweep_stored;
 }
 
@@ -112,13 +115,14 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
     defines.insert(s.geometry.begin(), s.geometry.end());
     return {fmt::format("izb visibility sweep {}", variant), {folder + "5_visibility.comp.glsl"}, defines};
   };
-  const auto list = [&](bool culled) -> gpu::ProgramSpec {
+  const auto list = [&](const char* name, bool culled, bool counted) -> gpu::ProgramSpec {
     light_defines();
     define(faces > 1, "CUBE");
     define(s.many_samples(), "SPP32");
     define(culled && s.pyramid(), "PYRAMID");
+    define(counted, "COUNT");
     defines.insert(s.geometry.begin(), s.geometry.end());
-    return {"izb visibility list", {folder + "5_visibility_list.comp.glsl"}, defines};
+    return {fmt::format("izb visibility {}", name), {folder + fmt::format("5_visibility_{}.comp.glsl", name)}, defines};
   };
   const auto build = [&](bool count) -> gpu::ProgramSpec {
     light_defines();
@@ -182,9 +186,15 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
     case IzbProgram::hardware_stored:
       return hardware("STORE_TESTS");
     case IzbProgram::list:
-      return list(true);
+      return list("list", true, false);
     case IzbProgram::list_all:
-      return list(false);
+      return list("list", false, false);
+    case IzbProgram::tiles:
+      return list("tiles", true, false);
+    case IzbProgram::tiles_counted:
+      return list("tiles", true, true);
+    case IzbProgram::tiles_counted_all:
+      return list("tiles", false, true);
     case IzbProgram::sweep:
       return sweep(true, "");
     case IzbProgram::sweep_counted:
@@ -197,6 +207,13 @@ gpu::ProgramSpec izb_program_spec(IzbProgram program, const IzbSettings& s, Ligh
       return sweep(true, "COUNT_FRAGMENTS");
     case IzbProgram::sweep_stored:
       return sweep(true, "STORE_TESTS");
+    case IzbProgram::alpha:
+    case IzbProgram::alpha_counted:
+      walk_defines();
+      define(s.unchanged_skip, "SKIP");
+      define(program == IzbProgram::alpha_counted, "COUNT");
+      defines.insert(s.geometry.begin(), s.geometry.end());
+      return {"izb visibility alpha", {folder + "5_visibility_alpha.comp.glsl"}, defines};
     case IzbProgram::speed_of_light:
       walk_defines();
       define(s.unchanged_skip, "SKIP");

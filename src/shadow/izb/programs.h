@@ -32,12 +32,17 @@ enum class IzbProgram {
   hardware_stored,
   list,  ///< of --raster compute, before a sweep
   list_all,
+  tiles,  ///< after `list`, of large triangles
+  tiles_counted,
+  tiles_counted_all,
   sweep,  ///< before the one of the same variant above, which gets the other triangles
   sweep_counted,
   sweep_counted_all,
   sweep_tests,
   sweep_fragments,
   sweep_stored,
+  alpha,  ///< after a sweep of masked casters
+  alpha_counted,
   speed_of_light,  ///< the tests of that list
   settle,
   overflow,

@@ -29,7 +29,7 @@ OptionSet IzbSettings::options() {
              "gs: dilate triangles in a geometry shader; hw: by the hardware's conservative rasteriser and a "
              "pass-through geometry shader, which NVIDIA GPUs have since GM204 (7); compute: walk the lists of small "
              "triangles in a compute shader and dilate the others");
-  set.integer("compute-texels", compute_texels, 0, 16384, "texels",
+  set.integer("compute-texels", compute_texels, 0, 1 << 28, "texels",
               "of --raster compute: triangles that may touch more are left to the geometry shader");
   set.integer(
       "compute-rounds", compute_rounds, 0, 512, "rounds",
@@ -53,9 +53,11 @@ OptionSet IzbSettings::options() {
   set.flag("occluders", occluders,
            "before the lists are made, a depth map of triangles that surely cover whole texels of the grid: receivers "
            "behind it are in full shadow and get no node (Tokuyoshi and Mizokuchi 2018)");
-  set.integer("pairs", pair_capacity, by_size, 1 << 24, "pairs",
-              "room for triangle-pixel pairs that single precision cannot decide; when it is exceeded a second pass "
-              "decides them in double; -1: by the picture, one for 16 pixels, or at 32 samples for each");
+  set.integer(
+      "pairs", pair_capacity, by_size, 1 << 24, "pairs",
+      "room for triangle-pixel pairs that single precision cannot decide; when it is exceeded a second pass "
+      "decides them in double; -1: by the picture, one for 16 pixels, or at 32 samples for each. --raster compute has "
+      "as much room for pairs whose alpha mask is to be asked, with -1 one for each pixel");
   return set;
 }
 
@@ -63,6 +65,11 @@ int IzbSettings::pairs(int width_px, int height_px) const {
   if (pair_capacity != by_size) return pair_capacity;
   const int64_t pixels = int64_t(width_px) * height_px;
   return static_cast<int>(std::clamp<int64_t>(pixels / (many_samples() ? 1 : 16), 4096, 1 << 24));
+}
+
+int IzbSettings::asked_pairs(int width_px, int height_px) const {
+  if (pair_capacity != by_size) return pair_capacity;
+  return static_cast<int>(std::clamp<int64_t>(int64_t(width_px) * height_px, 4096, 1 << 24));
 }
 
 std::vector<std::string> IzbSettings::preset_names() {

@@ -17,7 +17,7 @@ struct IzbSettings {
   SampleOptions sampling;
   std::string coverage = "lut", lut = "64", insertion = "approximate", cascade_pass = "single", raster = "gs",
               alpha = "exact";
-  int grid = 2048, nodes = 8, cascades = 1, compute_texels = 256, compute_rounds = 64;
+  int grid = 2048, nodes = 8, cascades = 1, compute_texels = 1 << 28, compute_rounds = 64;
   double dilation_texels = 1.0, grid_density = 4.0;
   bool zcull = true, zcull_pyramid = true, nl_cull = true, occluders = true;
   bool removal = true, unchanged_skip = true, pipelining = false;
@@ -50,6 +50,9 @@ struct IzbSettings {
   /// Room for unsure pairs: as asked, or by the picture's size: at 32 samples one a pixel; the most seen is 0.97, of
   /// `powerplant` by the preset `paper`.
   int pairs(int width_px, int height_px) const;
+  /// Whether pairs are listed to ask their alpha mask, and room for those of one dispatch.
+  bool lists_alpha() const { return compute() && alpha == "exact"; }
+  int asked_pairs(int width_px, int height_px) const;
   /// Layers of such a light that one draw of the casters reaches. More than eight would be more than a geometry shader
   /// may put out everywhere.
   int layers_a_pass(int faces) const { return cascade_pass == "single" ? std::min(cascades * faces, 8) : 1; }
