@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "app/results.h"
+#include "base/error.h"
 #include "reference/embree.h"
 
 namespace izb::bench {
