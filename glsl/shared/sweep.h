@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What --raster compute sorts the triangles into: those that a compute shader sweeps, each for one layer, large ones in tiles of
-// the grid, and those that the raster pipeline draws. Lanes wait for the one with most to do, so that a sweep goes on for some rounds only: what is not
-// done then is listed once more, and the next dispatch has full lanes again.
+// the grid, and those that the raster pipeline draws. Lanes wait for the one with most to do, so that a sweep goes on for some
+// rounds only: what is not done then is listed once more, and the next dispatch has full lanes again.
 #ifndef IZB_SHARED_SWEEP_H
 #define IZB_SHARED_SWEEP_H
 #include "shared/footprint.h"

@@ -1,7 +1,8 @@
 #version 450 core
 // 5.5 without the raster pipeline (--raster compute): an invocation has a triangle of the list (5_visibility_list.comp.glsl) and
-// a layer, or a tile of a large one (5_visibility_tiles.comp.glsl), and walks the lists of all texels in its footprint. A rasteriser that sets triangles up one after the
-// other, and fills lanes with the fragments of one, is slow where triangles are small.
+// a layer, or a tile of a large one (5_visibility_tiles.comp.glsl), and walks the lists of all texels in its footprint. A
+// rasteriser that sets triangles up one after the other, and fills lanes with the fragments of one, is slow where triangles are
+// small.
 // Defines, beside those of walk.glsl: CUBE: six faces.
 #include "shared/bindings.h"
 #include "shared/geometry.glsl"
@@ -28,7 +29,7 @@ layout(binding = UNIT_FURTHEST) uniform usampler2DArray furthest;
 #endif
 
 // The texels that the footprint may have something to do in, from `number` on: within its edges and, with z-cull, not in front of
-// all that is there. In a loop of its own, whose rounds cost a tenth of the walk's. What rounding takes from edges and depth is
+// all that is there. In a loop of its own, whose rounds have no test to pay for. What rounding takes from edges and depth is
 // less than their guard, which is made for rasterisers.
 uvec2 texels_to_sweep(Footprint f, ivec4 box, int layer, int number) {
   vec3 edges[4] = footprint_edges(f);

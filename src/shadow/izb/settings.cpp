@@ -27,8 +27,8 @@ OptionSet IzbSettings::options() {
       "the light-space grid, or not at all, so that they cast as opaque");
   set.choice("raster", raster, {"gs", "hw", "compute"},
              "gs: dilate triangles in a geometry shader; hw: by the hardware's conservative rasteriser and a "
-             "pass-through geometry shader, which NVIDIA GPUs have since GM204 (7); compute: walk the lists of small "
-             "triangles in a compute shader and dilate the others");
+             "pass-through geometry shader, which NVIDIA GPUs have since GM204 (7); compute: walk the lists in a "
+             "compute shader, an invocation for each triangle or tile of a large one");
   set.integer("compute-texels", compute_texels, 0, 1 << 28, "texels",
               "of --raster compute: triangles that may touch more are left to the geometry shader");
   set.integer(
