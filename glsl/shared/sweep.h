@@ -21,7 +21,7 @@ const int sweep_parts = 7;
 struct ListedCounts {
   uvec4 part[sweep_parts];  // as glDispatchComputeIndirect reads it: x: groups; w: entries, also those without room
   uvec4 rows;      // likewise, of tiles that are yet to be listed
-  uvec4 rows_end;  // x: of those that had room
+  uvec4 room;      // x: rows that had room; y: room for rows; z: for entries of a part
   uint vertices;  // from here on as glDrawArraysIndirect reads it
   uint draw_instances;
   uint first_vertex;
@@ -36,6 +36,7 @@ const int most_listed = 1 << 18;
 // as many drawn ones, since of each that is swept the driver may end the loops.
 const int part_room = 1 << 20;
 const int rows_room = part_room / 2;
+const int tiles_room = part_room - most_listed;
 const int list_size = 3 * part_room;
 
 // What part k of the sweep reads, and part k - 1 writes, begins there.

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // --raster compute: the mask and the tests of the raster pipeline, with less work for it.
-#include <cstdlib>
-
 #include "base/error.h"
 #include "gl/frame_fixture.h"
 #include "gl/masked_scene.h"
@@ -34,6 +32,13 @@ void expect_brute_force(const Scene& scene, const Settings& settings) {
           << texels << " texels, " << type_name(light.type);
       EXPECT_GT(shadowed(frame), 100u);
     }
+}
+
+/// Room for few rows, or for few of the tiles in all rows.
+IzbSettings with_little_room(IzbSettings settings, bool rows) {
+  settings.rows_room = rows ? 40 : shared::rows_room;
+  settings.tiles_room = rows ? shared::tiles_room : 40;
+  return settings;
 }
 
 TEST(Compute, WritesTheBruteForceMaskAtOneSample) {
@@ -170,17 +175,42 @@ TEST(Compute, ASweepThatGoesOnInAnotherDispatchMakesTheSameTests) {
     }
 }
 
-TEST(Compute, WhatHasNoRoomInTheListOfTilesIsDrawn) {
-  if (!std::getenv("IZB_FULL")) GTEST_SKIP() << "takes a minute for more than a million tiles; set IZB_FULL=1";
-  Scene scene = tangle(215, 40);
-  // Slivers along the diagonal, of some 500 tiles each.
-  for (int i = 0; i < 1500; ++i) add_soup(scene, rectangle({-9, 6, -9 + 0.002 * i}, {0, 0, 0.001}, {18, 0, 18}));
-  const Settings settings{
-      {"spp", "32"}, {"grid", "2048"}, {"grid-density", "0"}, {"zcull", "off"}, {"occluders", "off"}};
-  const Frame theirs = render_frame(scene, camera, sun(130, 80), width_px, height_px, settings);
-  const Frame ours = render_frame(scene, camera, sun(130, 80), width_px, height_px, with(settings, compute));
-  EXPECT_GT(ours.count("triangles_drawn"), 0u) << "there was room";
-  EXPECT_EQ(different(ours.mask, theirs.mask), 0u);
+TEST(Compute, WhatHasNoRoomInTheListIsDrawn) {
+  for (const Scene& scene : {tangle(215, 300), masked_tangle(217)}) {
+    Izb technique;
+    set_options(technique, with(with(exact, compute), {{"grid", "512"}, {"grid-density", "0"}}));
+    Renderer renderer(scene, capabilities());
+    const Light light = sun(130, 35);
+    renderer.prepare(technique, width_px, height_px, {light});
+    const Frame whole = render_frame(renderer, technique, camera, light);
+    EXPECT_EQ(whole.count("triangles_drawn"), 0u);
+    for (const bool rows : {false, true}) {
+      technique.settings() = with_little_room(technique.settings(), rows);
+      renderer.prepare(technique, width_px, height_px, {light});
+      const Frame frame = render_frame(renderer, technique, camera, light);
+      EXPECT_EQ(different(frame.mask, whole.mask), 0u) << rows;
+      EXPECT_GT(frame.count("triangles_drawn"), 0u) << rows;
+      EXPECT_LE(frame.count("triangles_drawn"), whole.count("triangles_after_zcull"))
+          << rows << ": once for all of a triangle's rows";
+    }
+  }
+}
+
+// Room for the tiles that the pyramid leaves is too little without it.
+TEST(Compute, TilesThatNoReceiverLiesBehindAreNotListed) {
+  Scene scene = tangle(218, 40);
+  add_soup(scene, rectangle({-6, -3, -6}, {0, 0, 12}, {12, 9, 0}));  // from below the ground to above it
+  Izb technique;
+  for (const char* pyramid : {"on", "off"}) {
+    set_options(technique, {{"spp", "32"}, {"grid", "512"}, {"grid-density", "0"}, {"raster", "compute"}});
+    set_options(technique, {{"zcull-pyramid", pyramid}});
+    technique.settings().tiles_room = 3000;
+    Renderer renderer(scene, capabilities());
+    renderer.prepare(technique, width_px, height_px, {sun(130, 80)});
+    const Frame frame = render_frame(renderer, technique, camera, sun(130, 80));
+    EXPECT_EQ(frame.count("triangles_drawn") > 0, pyramid == std::string("off")) << pyramid;
+    EXPECT_GT(shadowed(frame), 100u);
+  }
 }
 
 TEST(Compute, AlphaMasksThatHaveNoRoomToBeAskedAreAskedInDouble) {

@@ -132,7 +132,7 @@ const std::map<std::string, Block> blocks{
       false,
       {{"counts.part[0]", {offsetof(ListedCounts, part), GL_UNSIGNED_INT_VEC4}},
        FIELD("counts", ListedCounts, rows),
-       FIELD("counts", ListedCounts, rows_end),
+       FIELD("counts", ListedCounts, room),
        FIELD("counts", ListedCounts, vertices),
        FIELD("counts", ListedCounts, draw_instances),
        FIELD("counts", ListedCounts, first_vertex),

@@ -73,7 +73,7 @@ void go_on_later(ListedTriangle entry, Walk w) {
 }
 
 void main() {
-  if (gl_GlobalInvocationID.x >= min(counts.part[part].w, uint(part_room))) return;
+  if (gl_GlobalInvocationID.x >= min(counts.part[part].w, counts.room.z)) return;
   ListedTriangle entry = listed[part_entry(part) + gl_GlobalInvocationID.x];
   uint instance = entry.instance, number = triangle_of(entry);
   int layer = int(layer_of(entry));

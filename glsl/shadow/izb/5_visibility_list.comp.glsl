@@ -29,7 +29,7 @@ void list_rows(ListedTriangle entry, ivec4 box) {
   int first = box.y / window_texels;
   uint rows = uint(box.w / window_texels - first + 1);
   uint i = atomicAdd(counts.rows.w, rows);
-  if (i + rows > uint(rows_room)) {
+  if (i + rows > counts.room.y) {
     list_drawn(entry);
     return;
   }
@@ -37,7 +37,7 @@ void list_rows(ListedTriangle entry, ivec4 box) {
     entry.place = place_of_tile(0, first + int(row));
     listed[part_entry(1) + i + row] = entry;
   }
-  atomicMax(counts.rows_end.x, i + rows);
+  atomicMax(counts.room.x, i + rows);
   atomicMax(counts.rows.x, (i + rows + uint(sweep_group) - 1u) / uint(sweep_group));
 }
 

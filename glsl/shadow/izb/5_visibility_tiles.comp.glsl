@@ -38,7 +38,7 @@ bool may_touch(vec3 edges[4], Footprint f, ivec2 tile, int layer) {
 }
 
 void main() {
-  if (gl_GlobalInvocationID.x >= counts.rows_end.x) return;
+  if (gl_GlobalInvocationID.x >= counts.room.x) return;
   ListedTriangle entry = listed[part_entry(1) + gl_GlobalInvocationID.x];
   entry.node = no_node;
   int layer = int(layer_of(entry));
@@ -58,14 +58,14 @@ void main() {
     if (!may_touch(edges, f, tile, layer)) continue;
     entry.place = place_of_tile(tile.x, tile.y);
     uint i = atomicAdd(counts.part[0].w, 1u);
-    if (i >= uint(part_room)) break;
+    if (i >= counts.room.z) break;
     if (i % uint(sweep_group) == 0u) atomicAdd(counts.part[0].x, 1u);
     listed[i] = entry;
   }
   if (tile.x > last) return;
   // There was no room: the triangle is drawn, once for all of its rows.
   uint first_row = part_entry(1) + gl_GlobalInvocationID.x - uint(tile.y - box.y / window_texels);
-  if (atomicExchange(listed[first_row].node, 0u) != no_node) return;
+  if (atomicExchange(listed[first_row].node, ~no_node) != no_node) return;
   entry.place = 0u;
   listed[drawn_entry(atomicAdd(counts.vertices, 3u) / 3u)] = entry;
 }

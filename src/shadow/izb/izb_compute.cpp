@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// --raster compute: small triangles are swept by a compute shader, large ones drawn as ever (shared/sweep.h).
+// --raster compute: triangles are swept by a compute shader, large ones tile by tile (shared/sweep.h).
 #include <algorithm>
 #include <cstddef>
 
@@ -56,6 +56,7 @@ void Izb::draw_by_compute(const FrameInputs& in, IzbProgram program, Drawn drawn
     shared::ListedCounts none{};
     for (glm::uvec4& part : none.part) part = {0, 1, 1, 0};
     none.rows = {0, 1, 1, 0};
+    none.room = {0, built_.rows_room, (end - first) * static_cast<uint32_t>(layers) + built_.tiles_room, 0};
     none.draw_instances = 1;
     listed_counts_.update(0, sizeof none, &none);
     glMemoryBarrier(stored);  // what the draw before has read is written again

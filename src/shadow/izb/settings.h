@@ -8,6 +8,7 @@
 #include "base/options.h"
 #include "frame/samples.h"
 #include "gpu/glsl_front_end.h"
+#include "shared/sweep.h"
 
 namespace izb {
 
@@ -25,6 +26,8 @@ struct IzbSettings {
   /// No option, for tests: the order of insertion is n * stride modulo the number of pixels, to which the stride is
   /// coprime. Nothing but the order within the lists may depend on it.
   int insertion_stride = 1;
+  /// No options, for tests: room in the list of --raster compute.
+  uint32_t rows_room = shared::rows_room, tiles_room = shared::tiles_room;
   /// No option: how the scene's buffers are bound.
   gpu::Defines geometry;
 
