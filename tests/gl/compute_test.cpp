@@ -190,6 +190,7 @@ TEST(Compute, WhatHasNoRoomInTheListIsDrawn) {
       const Frame frame = render_frame(renderer, technique, camera, light);
       EXPECT_EQ(different(frame.mask, whole.mask), 0u) << rows;
       EXPECT_GT(frame.count("triangles_drawn"), 0u) << rows;
+      EXPECT_EQ(frame.count("triangles_after_zcull"), whole.count("triangles_after_zcull")) << rows;
       EXPECT_LE(frame.count("triangles_drawn"), whole.count("triangles_after_zcull"))
           << rows << ": once for all of a triangle's rows";
     }

@@ -107,6 +107,7 @@ void main() {
     listed[drawn_entry(atomicAdd(counts.vertices, 3u) / 3u)] = entry;
 #ifdef COUNT
   if (ended && !is_tile(entry)) atomicAdd(counters.triangles, 1u);
+  if (!ended && is_last && is_tile(entry)) atomicAdd(counters.triangles, ~0u);  // the geometry shader counts it again
   add_counts(w);
 #endif
 }

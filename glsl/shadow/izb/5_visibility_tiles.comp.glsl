@@ -66,6 +66,9 @@ void main() {
   // There was no room: the triangle is drawn, once for all of its rows.
   uint first_row = part_entry(1) + gl_GlobalInvocationID.x - uint(tile.y - box.y / window_texels);
   if (atomicExchange(listed[first_row].node, ~no_node) != no_node) return;
+#ifdef COUNT
+  atomicAdd(counters.triangles, ~0u);  // the geometry shader counts it
+#endif
   entry.place = 0u;
   listed[drawn_entry(atomicAdd(counts.vertices, 3u) / 3u)] = entry;
 }
