@@ -179,27 +179,30 @@ void walk(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, out PutOff
   }
 }
 
-ivec2 last_put_off(inout PutOff put_off) {
-  ivec2 px = pixel_from_node(put_off.pixels.x);
-  put_off.pixels = put_off.pixels.yzww;
-  --put_off.count;
-  return px;
-}
-
 #if defined(ALPHA_EXACT) && defined(SWEEP)
 layout(std430, binding = BIND_ASKED) writeonly buffer AskedBlock { UnsurePair asked[]; };
 
-// Into the list of 5_visibility_alpha.comp.glsl, whose lanes are full.
+void ask(uint i, uint node, uvec2 id) {
+  if (i < counters.asked_capacity) asked[i] = UnsurePair(node, id.x - 1u, id.y);
+}
+
+// Into the list of 5_visibility_alpha.comp.glsl, whose lanes are full. No loop: a driver that ends it would leave places there that
+// nobody has written.
 void take_all(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, inout PutOff put_off) {
   if (put_off.count == 0) return;
   uint i = atomicAdd(counters.asked, uint(put_off.count));
-  for (; put_off.count > 0; ++i) {
-    ivec2 px = last_put_off(put_off);
-    if (i < counters.asked_capacity) asked[i] = UnsurePair(node_from_pixel(px, 0), id.x - 1u, id.y);
-  }
+  ask(i, put_off.pixels.x, id);
+  if (put_off.count > 1) ask(i + 1u, put_off.pixels.y, id);
+  if (put_off.count > 2) ask(i + 2u, put_off.pixels.z, id);
+  if (put_off.count > 3) ask(i + 3u, put_off.pixels.w, id);
+  put_off.count = 0;
 }
 #else
-void take(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, ivec2 px) {
+// Takes the last pair that was put off.
+void take(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, inout PutOff put_off) {
+  ivec2 px = pixel_from_node(put_off.pixels.x);
+  put_off.pixels = put_off.pixels.yzww;
+  --put_off.count;
 #ifdef ALPHA_EXACT
   if (triangle.masked) {
     bool unsure;
@@ -212,7 +215,7 @@ void take(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, ivec2 px) 
 }
 
 void take_all(CameraFrame eye, Triangle triangle, uvec2 id, inout Walk w, inout PutOff put_off) {
-  while (put_off.count > 0) take(eye, triangle, id, w, last_put_off(put_off));
+  while (put_off.count > 0) take(eye, triangle, id, w, put_off);
 }
 #endif
 
